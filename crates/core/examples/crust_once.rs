@@ -1,0 +1,65 @@
+//! Build one triangulation or crust of a generated set and print how long each stage took.
+//!
+//! `cargo run --release --example crust_once -- curves 1000000 [threads]`
+
+use crustline_core::{Delaunay, Point, Progress};
+use std::time::Instant;
+
+struct Scatter(u64);
+
+impl Scatter {
+    fn next(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// Samples of closed curves of 500 points each, on a grid of cells, in random order.
+fn curves(count: usize, random: &mut Scatter) -> Vec<Point> {
+    let side = ((count / 500).max(1) as f64).sqrt().ceil();
+    let mut points = Vec::with_capacity(count);
+    let mut phase = [0.0; 3];
+    for k in 0..count {
+        if k % 500 == 0 {
+            phase = [random.next(), random.next(), random.next()].map(|x| x * std::f64::consts::TAU);
+        }
+        let cell = (k / 500) as f64;
+        let t = (k % 500) as f64 / 500.0 * std::f64::consts::TAU;
+        let wave = |f: f64, p: f64| (f * t + p).sin();
+        let radius = 0.3 + 0.05 * wave(2.0, phase[0]) + 0.04 * wave(3.0, phase[1]) + 0.02 * wave(5.0, phase[2]);
+        points.push([cell % side + radius * t.cos(), (cell / side).floor() + radius * t.sin()]);
+    }
+    for k in (1..points.len()).rev() {
+        points.swap(k, (random.next() * (k + 1) as f64) as usize);
+    }
+    points
+}
+
+fn points(kind: &str, count: usize) -> Vec<Point> {
+    let mut random = Scatter(42);
+    let side = (count as f64).sqrt().ceil();
+    let circle = |k: usize| k as f64 / count as f64 * std::f64::consts::TAU;
+    match kind {
+        "uniform" => (0..count).map(|_| [random.next(), random.next()]).collect(),
+        "lattice" => (0..count).map(|k| [k as f64 % side, (k as f64 / side).floor()]).collect(),
+        "circle" => (0..count).map(|k| [circle(k).cos(), circle(k).sin()]).collect(),
+        "line" => (0..count).map(|k| [k as f64, k as f64]).collect(),
+        "parabola" => (0..count).map(|k| [k as f64, (k as f64).powi(2)]).collect(),
+        "equal" => vec![[1.0, 2.0]; count],
+        _ => curves(count, &mut random),
+    }
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().collect();
+    let points = points(&arguments[1], arguments[2].parse().expect("a number of points"));
+    let threads = arguments.get(3).map_or(1, |n| n.parse().expect("a number of threads"));
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+    pool.install(|| {
+        let start = Instant::now();
+        let delaunay = Delaunay::new(&points, &Progress::default()).expect("finite points");
+        println!("delaunay {:.3} s, {} half-edges", start.elapsed().as_secs_f64(), delaunay.stars().half_edges());
+    });
+}

@@ -1,0 +1,343 @@
+//! Divide and conquer: triangulate the halves of a cell, then zip them together.
+//!
+//! The merge is that of Guibas and Stolfi (see [`rings`](super::rings)); cutting cells alternately by vertical and
+//! horizontal lines is R. A. Dwyer's, "A Faster Divide-and-Conquer Algorithm for Constructing Delaunay
+//! Triangulations", Algorithmica 2 (1987). The cuts are those of the Z-order curve, so they depend on the
+//! points alone, and the halves, which share nothing, can be triangulated at the same time.
+
+use super::rings::{FreeSlots, HalfEdge, NONE, Rings};
+use crate::error::Result;
+use crate::point::{Point, lexicographic};
+use crate::predicates::{in_circle, is_left};
+use crate::progress::Progress;
+
+/// Vertices below which a cell is one task, and one report of progress.
+const TASK: usize = 1 << 13;
+/// Slots for half-edges per vertex: an edge has two, and there are fewer than three edges a vertex.
+pub const SLOTS: usize = 6;
+
+/// How a cell is cut in two.
+#[derive(Clone, Copy, PartialEq)]
+enum Cut {
+    /// By a vertical line: left before right, ties from below.
+    Vertical,
+    /// By a horizontal line: below before above, ties from the right.
+    Horizontal,
+}
+
+/// A vertex of the hull and the half-edge from it to the next one counter-clockwise.
+///
+/// `edge` is `NONE` while the vertex is alone.
+#[derive(Clone, Copy)]
+pub struct HullVertex {
+    vertex: u32,
+    /// The half-edge to the next vertex of the hull.
+    pub edge: u32,
+}
+
+/// The first and last vertex of a triangulation in each of the two orders of [`Cut`].
+#[derive(Clone, Copy)]
+pub struct Extremes {
+    /// First in the order of a vertical cut: the leftmost vertex.
+    pub left: HullVertex,
+    right: HullVertex,
+    bottom: HullVertex,
+    top: HullVertex,
+}
+
+/// The vertices of all cells.
+#[derive(Clone, Copy)]
+pub struct Vertices<'a> {
+    /// Distinct points along the Z-order curve.
+    pub points: &'a [Point],
+    /// Their codes.
+    pub codes: &'a [u64],
+}
+
+/// Triangulate the cell of the vertices `first..last` into `slots`, of which number 0 is `SLOTS * first`.
+pub fn triangulate(
+    vertices: Vertices<'_>,
+    (first, last): (usize, usize),
+    slots: &mut [HalfEdge],
+    progress: &Progress,
+) -> Result<(Extremes, FreeSlots)> {
+    let offset = (SLOTS * first) as u32;
+    if last - first <= TASK {
+        let free = FreeSlots::fresh(offset..(SLOTS * last) as u32);
+        let mut cell = Cell { vertices, rings: Rings::new(slots, offset, free) };
+        let extremes = cell.triangulate(first, last);
+        progress.advance(last - first)?;
+        return Ok((extremes, cell.rings.into_free()));
+    }
+    let (middle, cut) = vertices.split(first, last);
+    let (low, high) = slots.split_at_mut(SLOTS * (middle - first));
+    let (a, b) = rayon::join(
+        || triangulate(vertices, (first, middle), low, progress),
+        || triangulate(vertices, (middle, last), high, progress),
+    );
+    let ((a, free_a), (b, free_b)) = (a?, b?);
+    progress.advance(0)?;
+    let mut cell = Cell { vertices, rings: Rings::new(slots, offset, free_a.join(free_b)) };
+    let extremes = cell.merge(a, b, cut);
+    Ok((extremes, cell.rings.into_free()))
+}
+
+impl Vertices<'_> {
+    /// Where to cut the cell `first..last`: at the leading bit in which its codes differ.
+    fn split(self, first: usize, last: usize) -> (usize, Cut) {
+        let codes = &self.codes[first..last];
+        let differing = codes[0] ^ codes[codes.len() - 1];
+        if differing == 0 {
+            // Too close together for the code; these are sorted by x, then y.
+            return (usize::midpoint(first, last), Cut::Vertical);
+        }
+        let bit = 63 - differing.leading_zeros();
+        let middle = codes.partition_point(|code| code >> bit & 1 == 0);
+        (first + middle, if bit % 2 == 1 { Cut::Vertical } else { Cut::Horizontal })
+    }
+}
+
+/// A cell at work: its vertices and the graph on them.
+struct Cell<'a> {
+    vertices: Vertices<'a>,
+    rings: Rings<'a>,
+}
+
+impl Cell<'_> {
+    fn triangulate(&mut self, first: usize, last: usize) -> Extremes {
+        match last - first {
+            1 => Extremes::of_vertex(first as u32),
+            2 => self.segment(first as u32, first as u32 + 1),
+            3 => self.triangle(first as u32),
+            _ => {
+                let (middle, cut) = self.vertices.split(first, last);
+                let low = self.triangulate(first, middle);
+                let high = self.triangulate(middle, last);
+                self.merge(low, high, cut)
+            }
+        }
+    }
+
+    #[inline]
+    fn point(&self, vertex: u32) -> Point {
+        self.vertices.points[vertex as usize]
+    }
+
+    fn segment(&mut self, a: u32, b: u32) -> Extremes {
+        let e = self.rings.add(a, b);
+        let a = HullVertex { vertex: a, edge: e };
+        let b = HullVertex { vertex: b, edge: e ^ 1 };
+        self.extremes(&[a, b])
+    }
+
+    /// The triangle on the vertices `first`, `first + 1`, `first + 2`, or the path if they are in line.
+    fn triangle(&mut self, first: u32) -> Extremes {
+        let mut corners = [first, first + 1, first + 2];
+        let [a, b, c] = corners.map(|vertex| self.point(vertex));
+        if is_left(a, c, b) {
+            corners.swap(1, 2);
+        } else if !is_left(a, b, c) {
+            corners.sort_unstable_by(|&i, &j| lexicographic(&self.point(i), &self.point(j)));
+            return self.path(corners);
+        }
+        let [a, b, c] = corners;
+        let (ab, bc, ca) = (self.rings.add(a, b), self.rings.add(b, c), self.rings.add(c, a));
+        // Rings of two need no angles: each insertion is right both ways.
+        self.rings.insert_after(ca ^ 1, ab);
+        self.rings.insert_after(ab ^ 1, bc);
+        self.rings.insert_after(bc ^ 1, ca);
+        let corner = |vertex, edge| HullVertex { vertex, edge };
+        self.extremes(&[corner(a, ab), corner(b, bc), corner(c, ca)])
+    }
+
+    fn path(&mut self, [a, b, c]: [u32; 3]) -> Extremes {
+        let (ab, bc) = (self.rings.add(a, b), self.rings.add(b, c));
+        self.rings.insert_after(bc, ab ^ 1);
+        let a = HullVertex { vertex: a, edge: ab };
+        let c = HullVertex { vertex: c, edge: bc ^ 1 };
+        self.extremes(&[a, c])
+    }
+
+    /// The extremes among `hull`, which holds them.
+    fn extremes(&self, hull: &[HullVertex]) -> Extremes {
+        hull[1..].iter().fold(Extremes::of(hull[0]), |all, &vertex| {
+            self.join(all, Extremes::of(vertex))
+        })
+    }
+
+    fn join(&self, a: Extremes, b: Extremes) -> Extremes {
+        let pick = |u: HullVertex, v: HullVertex, cut: Cut, first: bool| {
+            let before = cut.precedes(self.point(u.vertex), self.point(v.vertex));
+            if before == first { u } else { v }
+        };
+        Extremes {
+            left: pick(a.left, b.left, Cut::Vertical, true),
+            right: pick(a.right, b.right, Cut::Vertical, false),
+            bottom: pick(a.bottom, b.bottom, Cut::Horizontal, true),
+            top: pick(a.top, b.top, Cut::Horizontal, false),
+        }
+    }
+
+    /// Join the triangulation `low` to `high`, which lies on the other side of the cut.
+    fn merge(&mut self, low: Extremes, high: Extremes, cut: Cut) -> Extremes {
+        let (inner_low, inner_high) = match cut {
+            Cut::Vertical => (low.right, high.left),
+            Cut::Horizontal => (low.top, high.bottom),
+        };
+        let lower = self.lower_tangent(inner_low, inner_high);
+        let upper = self.zip(lower);
+        let mut all = self.join(low, high);
+        // Only the four ends of the tangents have a new neighbor on the hull.
+        all.update(self.rings.origin(lower ^ 1), lower ^ 1);
+        all.update(self.rings.origin(upper), upper);
+        all
+    }
+
+    /// Add the edge of the hull below the cut; return its half-edge from `high` to `low`.
+    fn lower_tangent(&mut self, low: HullVertex, high: HullVertex) -> u32 {
+        // On the low side half-edges run clockwise around the hull, on the high side counter-clockwise.
+        let mut e = if low.edge == NONE { NONE } else { self.rings.prev(low.edge) };
+        let mut f = high.edge;
+        let (mut a, mut b) = (low.vertex, high.vertex);
+        loop {
+            if e != NONE && self.is_left_of(b, e) {
+                e = self.rings.left_next(e);
+                a = self.rings.origin(e);
+            } else if f != NONE && self.is_right_of(a, f) {
+                f = self.rings.right_prev(f);
+                b = self.rings.origin(f);
+            } else {
+                break;
+            }
+        }
+        let base = self.rings.add(b, a);
+        if f != NONE {
+            self.rings.insert_before(base, f);
+        }
+        if e != NONE {
+            self.rings.insert_after(base ^ 1, e);
+        }
+        base
+    }
+
+    /// Close the gap above `base`, the lower tangent; return the upper one, from `high` to `low`.
+    fn zip(&mut self, mut base: u32) -> u32 {
+        loop {
+            let low = self.low_candidate(base);
+            let high = self.high_candidate(base);
+            base = match (low, high) {
+                (None, None) => return base,
+                (Some(l), None) => self.connect_low(base, l),
+                (None, Some(h)) => self.connect_high(base, h),
+                (Some(l), Some(h)) if self.circle_holds(base, l, h) => self.connect_high(base, h),
+                (Some(l), Some(_)) => self.connect_low(base, l),
+            };
+        }
+    }
+
+    /// The edge of the low side to the apex of the next triangle on `base`, once edges are gone whose
+    /// triangle's circle holds a vertex further on.
+    #[inline]
+    fn low_candidate(&mut self, base: u32) -> Option<u32> {
+        let mut e = self.rings.next(base ^ 1);
+        if !self.is_above(e, base) {
+            return None;
+        }
+        loop {
+            let next = self.rings.next(e);
+            if !self.circle_holds(base, e, next) {
+                return Some(e);
+            }
+            self.rings.remove(e);
+            e = next;
+        }
+    }
+
+    /// The mirror image of [`low_candidate`](Self::low_candidate).
+    #[inline]
+    fn high_candidate(&mut self, base: u32) -> Option<u32> {
+        let mut e = self.rings.prev(base);
+        if !self.is_above(e, base) {
+            return None;
+        }
+        loop {
+            let next = self.rings.prev(e);
+            if !self.circle_holds(base, e, next) {
+                return Some(e);
+            }
+            self.rings.remove(e);
+            e = next;
+        }
+    }
+
+    /// Does the circle through `base` and the end of `e` hold the end of `f`?
+    #[inline]
+    fn circle_holds(&self, base: u32, e: u32, f: u32) -> bool {
+        let (b, a) = (self.rings.origin(base), self.rings.destination(base));
+        let (c, d) = (self.rings.destination(e), self.rings.destination(f));
+        // A short ring comes back to the base, whose ends are on the circle.
+        d != a && d != b && in_circle(self.point(a), self.point(b), self.point(c), self.point(d))
+    }
+
+    /// Connect the high end of `base` to the end of `e` on the low side.
+    #[inline]
+    fn connect_low(&mut self, base: u32, e: u32) -> u32 {
+        let new = self.rings.add(self.rings.origin(base), self.rings.destination(e));
+        self.rings.insert_before(new, base);
+        self.rings.insert_after(new ^ 1, e ^ 1);
+        new
+    }
+
+    /// Connect the end of `e` on the high side to the low end of `base`.
+    #[inline]
+    fn connect_high(&mut self, base: u32, e: u32) -> u32 {
+        let new = self.rings.add(self.rings.destination(e), self.rings.destination(base));
+        self.rings.insert_before(new, e ^ 1);
+        self.rings.insert_after(new ^ 1, base ^ 1);
+        new
+    }
+
+    #[inline]
+    fn is_above(&self, e: u32, base: u32) -> bool {
+        self.is_right_of(self.rings.destination(e), base)
+    }
+
+    #[inline]
+    fn is_left_of(&self, vertex: u32, e: u32) -> bool {
+        let (a, b) = (self.rings.origin(e), self.rings.destination(e));
+        is_left(self.point(a), self.point(b), self.point(vertex))
+    }
+
+    #[inline]
+    fn is_right_of(&self, vertex: u32, e: u32) -> bool {
+        self.is_left_of(vertex, e ^ 1)
+    }
+}
+
+impl Cut {
+    #[inline]
+    fn precedes(self, a: Point, b: Point) -> bool {
+        match self {
+            Self::Vertical => a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]),
+            Self::Horizontal => a[1] < b[1] || (a[1] == b[1] && a[0] > b[0]),
+        }
+    }
+}
+
+impl Extremes {
+    fn of(vertex: HullVertex) -> Self {
+        Self { left: vertex, right: vertex, bottom: vertex, top: vertex }
+    }
+
+    fn of_vertex(vertex: u32) -> Self {
+        Self::of(HullVertex { vertex, edge: NONE })
+    }
+
+    fn update(&mut self, vertex: u32, edge: u32) {
+        for extreme in [&mut self.left, &mut self.right, &mut self.bottom, &mut self.top] {
+            if extreme.vertex == vertex {
+                extreme.edge = edge;
+            }
+        }
+    }
+}

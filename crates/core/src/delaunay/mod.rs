@@ -1,0 +1,166 @@
+//! The Delaunay triangulation of distinct points, exact and the same on any number of threads.
+
+mod divide;
+mod order;
+mod rings;
+mod sanity;
+mod stars;
+
+use crate::error::{Error, Result};
+use crate::point::Point;
+use crate::progress::{Progress, Stage};
+use divide::{SLOTS, Vertices, triangulate};
+use order::{Order, order};
+use rayon::prelude::*;
+use rings::{HalfEdge, NONE};
+pub use stars::{Star, Stars};
+
+/// The most points that one triangulation can hold: half-edges are numbered in 32 bits.
+pub const MOST_POINTS: usize = (u32::MAX as usize - 1) / SLOTS;
+
+/// A Delaunay triangulation.
+///
+/// Its vertices are the distinct points, numbered along a space-filling curve; [`rows`](Self::rows) leads back to the
+/// input. Where four or more points lie on an empty circle, which of its diagonals are in depends on the
+/// coordinates alone, never on the order of the rows or the number of threads.
+#[derive(Debug, Clone, Default)]
+pub struct Delaunay {
+    points: Vec<Point>,
+    rows: Vec<u32>,
+    duplicates: Vec<[u32; 2]>,
+    scale: f64,
+    input: usize,
+    hull: Vec<u32>,
+    stars: Stars,
+}
+
+/// An edge p → q of the triangulation, p < q, and the apexes of its triangles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Edge {
+    /// The vertex of smaller number.
+    pub p: u32,
+    /// The vertex of larger number.
+    pub q: u32,
+    /// The third corner of the triangle to the left of p → q, if there is one.
+    pub left: Option<u32>,
+    /// The third corner of the triangle to the right of p → q, if there is one.
+    pub right: Option<u32>,
+}
+
+impl Delaunay {
+    /// Triangulate `points`, which must be finite.
+    ///
+    /// O(n log n), on the threads of the current rayon pool.
+    ///
+    /// # Errors
+    /// More than [`MOST_POINTS`] points, coordinates too far apart in size, or a cancelled `progress`.
+    pub fn new(points: &[Point], progress: &Progress) -> Result<Self> {
+        debug_assert!(points.iter().flatten().all(|x| x.is_finite()));
+        if points.len() > MOST_POINTS {
+            return Err(Error::TooManyPoints { count: points.len(), limit: MOST_POINTS });
+        }
+        let sorted = order(points, progress)?;
+        let (stars, hull) = stars(&sorted, progress)?;
+        let Order { points: vertices, rows, duplicates, scale, .. } = sorted;
+        Ok(Self { points: vertices, rows, duplicates, scale, input: points.len(), hull, stars })
+    }
+
+    /// The distinct points, scaled by [`scale`](Self::scale).
+    #[must_use]
+    pub fn points(&self) -> &[Point] {
+        &self.points
+    }
+
+    /// The point of `vertex`.
+    #[inline]
+    #[must_use]
+    pub fn point(&self, vertex: u32) -> Point {
+        self.points[vertex as usize]
+    }
+
+    /// The input row of each vertex: the first with its coordinates.
+    #[must_use]
+    pub fn rows(&self) -> &[u32] {
+        &self.rows
+    }
+
+    /// Row, and the first row with the same coordinates; sorted.
+    #[must_use]
+    pub fn duplicates(&self) -> &[[u32; 2]] {
+        &self.duplicates
+    }
+
+    /// The power of two that the input was multiplied by to give the vertices.
+    #[must_use]
+    pub fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// The number of input rows.
+    #[must_use]
+    pub fn input_len(&self) -> usize {
+        self.input
+    }
+
+    /// The vertices of the hull, counter-clockwise from the leftmost; points in line are all listed, on both ways.
+    #[must_use]
+    pub fn hull(&self) -> &[u32] {
+        &self.hull
+    }
+
+    /// The neighbors of each vertex.
+    #[must_use]
+    pub fn stars(&self) -> &Stars {
+        &self.stars
+    }
+
+    /// The neighbors of `vertex`.
+    #[inline]
+    #[must_use]
+    pub fn star(&self, vertex: u32) -> Star<'_> {
+        self.stars.star(vertex)
+    }
+
+    /// All edges, sorted by p.
+    pub fn edges(&self) -> impl Iterator<Item = Edge> {
+        (0..self.points.len() as u32).flat_map(|p| self.edges_from(p))
+    }
+
+    /// The edges from `p` to vertices of larger number.
+    pub fn edges_from(&self, p: u32) -> impl Iterator<Item = Edge> {
+        let star = self.star(p);
+        let later = move |&k: &usize| star.neighbors[k] > p;
+        (0..star.neighbors.len()).filter(later).map(move |k| Edge {
+            p,
+            q: star.neighbors[k],
+            left: star.left(k),
+            right: star.right(k),
+        })
+    }
+
+    /// The triangles, counter-clockwise, each from its smallest vertex; sorted by that, then around it.
+    #[must_use]
+    pub fn triangles(&self) -> Vec<[u32; 3]> {
+        let from = |p: u32| {
+            let smallest = move |&(q, r): &(u32, u32)| p < q && p < r;
+            self.star(p).wedges().filter(smallest).map(move |(q, r)| [p, q, r])
+        };
+        (0..self.points.len() as u32).into_par_iter().flat_map_iter(from).collect()
+    }
+}
+
+/// Triangulate the sorted vertices; return their stars and the hull.
+fn stars(sorted: &Order, progress: &Progress) -> Result<(Stars, Vec<u32>)> {
+    let count = sorted.points.len();
+    progress.enter(Stage::Triangulate, count)?;
+    if count == 0 {
+        return Stars::collect(&[], 0, NONE, progress);
+    }
+    let vertices = Vertices { points: &sorted.points, codes: &sorted.codes };
+    let mut slots = vec![HalfEdge::FREE; SLOTS * count];
+    let (extremes, _) = triangulate(vertices, (0, count), &mut slots, progress)?;
+    Stars::collect(&slots, count, extremes.left.edge, progress)
+}
+
+#[cfg(test)]
+mod tests;

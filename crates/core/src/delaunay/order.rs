@@ -1,0 +1,204 @@
+//! The order in which vertices are kept: distinct points along the Z-order curve.
+//!
+//! A run of codes that share their leading bits is a cell of a quadtree, so the next bit splits it by
+//! a vertical or a horizontal line; `divide` cuts there. G. M. Morton, "A computer oriented geodetic
+//! data base", IBM, 1966.
+
+use crate::error::{Error, Result};
+use crate::point::{Point, lexicographic};
+use crate::progress::{Progress, Stage};
+use rayon::prelude::*;
+
+/// Points in one bucket of the first pass of the sort, about: they should fit in the first cache.
+const BUCKET: usize = 256;
+/// The most buckets that one pass can scatter to without thrashing the address translation.
+const MOST_BUCKETS: usize = 1 << 12;
+/// Rows that one task takes at a time.
+const GRAIN: usize = 1 << 14;
+
+/// Distinct points along the Z-order curve, and where they came from.
+#[derive(Debug, Default)]
+pub struct Order {
+    /// The distinct points, scaled by `scale`.
+    pub points: Vec<Point>,
+    /// The first row with these coordinates, a vertex each.
+    pub rows: Vec<u32>,
+    /// The Z-order code of each vertex; equal codes are sorted by x, then y.
+    pub codes: Vec<u64>,
+    /// Row, and the first row with the same coordinates; sorted.
+    pub duplicates: Vec<[u32; 2]>,
+    /// The power of two that coordinates were multiplied by.
+    pub scale: f64,
+}
+
+/// Sort `points` along the Z-order curve and set repeated ones aside.
+pub fn order(points: &[Point], progress: &Progress) -> Result<Order> {
+    progress.enter(Stage::Sort, points.len())?;
+    let bounds = Bounds::of(points);
+    let scale = bounds.scale();
+    if scale != 1.0 {
+        check_scaling(points, scale, bounds.largest())?;
+    }
+    let mut keys = keys(points, &bounds, scale);
+    sort_keys(&mut keys, progress)?;
+    sort_runs(&mut keys, points);
+    Ok(collect(&keys, points, scale))
+}
+
+/// The code and the row of a point.
+type Key = (u64, u32);
+
+#[derive(Clone, Copy)]
+struct Bounds {
+    low: Point,
+    high: Point,
+}
+
+impl Bounds {
+    fn of(points: &[Point]) -> Self {
+        let empty = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
+        let bound = |chunk: &[Point]| {
+            chunk.iter().fold(empty, |b, p| b.join(Self { low: *p, high: *p }))
+        };
+        if points.len() <= GRAIN {
+            return bound(points);
+        }
+        points.par_chunks(GRAIN).map(bound).reduce(|| empty, Self::join)
+    }
+
+    fn join(self, other: Self) -> Self {
+        Self {
+            low: [self.low[0].min(other.low[0]), self.low[1].min(other.low[1])],
+            high: [self.high[0].max(other.high[0]), self.high[1].max(other.high[1])],
+        }
+    }
+
+    fn largest(&self) -> f64 {
+        self.low.iter().chain(&self.high).fold(0.0, |m, x| m.max(x.abs()))
+    }
+
+    /// A power of two that brings the coordinates to where no product of the filters overflows.
+    fn scale(&self) -> f64 {
+        let largest = self.largest();
+        if largest == 0.0 || !largest.is_finite() || (1e-20..1e20).contains(&largest) {
+            return 1.0;
+        }
+        // Two steps: 2^1074, which brings up the smallest denormal, is not itself a double.
+        2f64.powi(-largest.log2().floor().max(-1000.0) as i32)
+    }
+}
+
+/// Scaling by a power of two is exact unless it underflows; find the first row where it does.
+fn check_scaling(points: &[Point], scale: f64, largest: f64) -> Result<()> {
+    let inexact = |x: &f64| (x * scale) / scale != *x;
+    match points.iter().position(|p| p.iter().any(inexact)) {
+        None => Ok(()),
+        Some(row) => {
+            let value = *points[row].iter().find(|x| inexact(x)).expect("the row has one");
+            Err(Error::Range { row, value, largest })
+        }
+    }
+}
+
+/// The key of each point. The quantization is monotone in x and in y, which is all that the cuts of
+/// `divide` ask for: different codes in x mean that the x are different, and in the same order.
+fn keys(points: &[Point], bounds: &Bounds, scale: f64) -> Vec<Key> {
+    let low = bounds.low.map(|x| x * scale);
+    let high = bounds.high.map(|x| x * scale);
+    let extent = (high[0] - low[0]).max(high[1] - low[1]);
+    let cells = if extent > 0.0 { (f64::from(u32::MAX) / extent).min(f64::MAX) } else { 0.0 };
+    let key = |(row, p): (usize, &Point)| {
+        let [x, y] = [0, 1].map(|axis| ((p[axis] * scale - low[axis]) * cells) as u32);
+        (spread(x) << 1 | spread(y), row as u32)
+    };
+    if points.len() <= GRAIN {
+        return points.iter().enumerate().map(key).collect();
+    }
+    points.par_iter().enumerate().with_min_len(GRAIN).map(key).collect()
+}
+
+/// Put a zero bit before each bit of `x`.
+fn spread(x: u32) -> u64 {
+    let mut x = u64::from(x);
+    for (shift, mask) in [
+        (16, 0x0000_ffff_0000_ffff),
+        (8, 0x00ff_00ff_00ff_00ff),
+        (4, 0x0f0f_0f0f_0f0f_0f0f),
+        (2, 0x3333_3333_3333_3333),
+        (1, 0x5555_5555_5555_5555),
+    ] {
+        x = (x | x << shift) & mask;
+    }
+    x
+}
+
+/// Sort by code: one pass into buckets by the leading bits, then each bucket by comparison.
+fn sort_keys(keys: &mut Vec<Key>, progress: &Progress) -> Result<()> {
+    let buckets = (keys.len() / BUCKET).next_power_of_two().min(MOST_BUCKETS);
+    if buckets < 4 {
+        keys.sort_unstable_by_key(|key| key.0);
+        return progress.advance(keys.len());
+    }
+    let shift = 64 - buckets.trailing_zeros();
+    let ends = scatter(keys, buckets, shift);
+    let mut parts = Vec::with_capacity(buckets);
+    let (mut rest, mut start) = (keys.as_mut_slice(), 0);
+    for end in ends {
+        let (part, tail) = rest.split_at_mut(end - start);
+        parts.push(part);
+        (rest, start) = (tail, end);
+    }
+    parts.into_par_iter().with_min_len(16).try_for_each(|part| {
+        part.sort_unstable_by_key(|key| key.0);
+        progress.advance(part.len())
+    })
+}
+
+/// Group `keys` by their leading bits; return where each group ends.
+fn scatter(keys: &mut Vec<Key>, buckets: usize, shift: u32) -> Vec<usize> {
+    let mut ends = vec![0; buckets];
+    for key in &*keys {
+        ends[(key.0 >> shift) as usize] += 1;
+    }
+    let mut start = 0;
+    for end in &mut ends {
+        (*end, start) = (start, start + *end);
+    }
+    let mut grouped = vec![(0, 0); keys.len()];
+    for &key in &*keys {
+        let end = &mut ends[(key.0 >> shift) as usize];
+        grouped[*end] = key;
+        *end += 1;
+    }
+    *keys = grouped;
+    ends
+}
+
+/// Sort each run of equal codes by x, y, then row.
+fn sort_runs(keys: &mut [Key], points: &[Point]) {
+    let at = |key: &Key| &points[key.1 as usize];
+    for run in keys.chunk_by_mut(|a, b| a.0 == b.0).filter(|run| run.len() > 1) {
+        run.sort_unstable_by(|a, b| lexicographic(at(a), at(b)).then(a.1.cmp(&b.1)));
+    }
+}
+
+/// Keep the first row of each run of equal points; the others are duplicates.
+fn collect(keys: &[Key], points: &[Point], scale: f64) -> Order {
+    let mut order = Order { scale, ..Order::default() };
+    order.points.reserve_exact(keys.len());
+    order.rows.reserve_exact(keys.len());
+    order.codes.reserve_exact(keys.len());
+    for &(code, row) in keys {
+        let point = points[row as usize].map(|x| x * scale);
+        if order.points.last() == Some(&point) {
+            let first = *order.rows.last().expect("as many rows as points");
+            order.duplicates.push([row, first]);
+        } else {
+            order.points.push(point);
+            order.rows.push(row);
+            order.codes.push(code);
+        }
+    }
+    order.duplicates.sort_unstable();
+    order
+}

@@ -1,0 +1,18 @@
+//! Curve reconstruction from unordered points of the plane, exactly.
+//!
+//! The crust and the β-skeleton of N. Amenta, M. Bern and D. Eppstein, "The Crust and the β-Skeleton:
+//! Combinatorial Curve Reconstruction", Graphical Models and Image Processing 60 (1998), and the graphs
+//! that they are compared with, on a Delaunay triangulation of our own. No Python, no input or output,
+//! no global state; parallel work runs on the current rayon pool and never changes an answer.
+
+pub mod delaunay;
+pub mod error;
+pub mod point;
+pub mod predicates;
+pub mod progress;
+pub mod sign;
+
+pub use delaunay::Delaunay;
+pub use error::{Error, Result};
+pub use point::Point;
+pub use progress::Progress;

@@ -1,0 +1,29 @@
+//! Points of the plane and the two products that all the geometry is made of.
+
+/// A point, or a vector, of the plane: x and y.
+pub type Point = [f64; 2];
+
+/// The vector from `a` to `b`, each coordinate correctly rounded.
+#[must_use]
+pub fn sub(b: Point, a: Point) -> Point {
+    [b[0] - a[0], b[1] - a[1]]
+}
+
+/// The dot product.
+#[must_use]
+pub fn dot(a: Point, b: Point) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+/// The cross product: twice the signed area of the triangle 0, `a`, `b`.
+#[must_use]
+pub fn cross(a: Point, b: Point) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+/// The lexicographic order by x, then y. Coordinates are finite, so it is total.
+#[must_use]
+pub fn lexicographic(a: &Point, b: &Point) -> std::cmp::Ordering {
+    // 0.0 and -0.0 are one coordinate, so `total_cmp` would not do.
+    a.partial_cmp(b).expect("coordinates are finite")
+}

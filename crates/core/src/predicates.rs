@@ -1,0 +1,139 @@
+//! Orientation and in-circle tests: a static filter in line, adaptive expansions behind it.
+//!
+//! The filters and their constants are those of J. R. Shewchuk, "Adaptive Precision Floating-Point
+//! Arithmetic and Fast Robust Geometric Predicates", Discrete & Computational Geometry 18 (1997),
+//! sections 4.3 and 4.4; the expansions are the crate `robust`'s. These are exact unless a product
+//! underflows, so coordinates that small take the integers of [`sign`](crate::sign) instead.
+
+use crate::point::{Point, cross, dot, sub};
+use crate::sign::{Form, Number, exact_sign};
+use std::cmp::Ordering::{self, Greater};
+
+const EPSILON: f64 = f64::EPSILON / 2.0;
+const ORIENT_BOUND: f64 = (3.0 + 16.0 * EPSILON) * EPSILON;
+const IN_CIRCLE_BOUND: f64 = (10.0 + 96.0 * EPSILON) * EPSILON;
+/// More than all that underflow can take away from a determinant of coordinates up to 2^200.
+const UNDERFLOW: f64 = 1e-150;
+
+/// On which side of the line from `a` to `b` does `c` lie? `Greater` is left.
+#[inline]
+#[must_use]
+pub fn orientation(a: Point, b: Point, c: Point) -> Ordering {
+    let (ca, cb) = (sub(a, c), sub(b, c));
+    let (left, right) = (ca[0] * cb[1], ca[1] * cb[0]);
+    let determinant = left - right;
+    if determinant.abs() > ORIENT_BOUND * (left.abs() + right.abs()) + UNDERFLOW {
+        return determinant.total_cmp(&0.0);
+    }
+    exact_orientation(a, b, c)
+}
+
+/// Does `c` lie strictly to the left of the line from `a` to `b`?
+#[inline]
+#[must_use]
+pub fn is_left(a: Point, b: Point, c: Point) -> bool {
+    orientation(a, b, c) == Greater
+}
+
+/// Does `d` lie strictly inside the circle through the counter-clockwise `a`, `b`, `c`?
+#[inline]
+#[must_use]
+pub fn in_circle(a: Point, b: Point, c: Point, d: Point) -> bool {
+    let (da, db, dc) = (sub(a, d), sub(b, d), sub(c, d));
+    let minors = [(db, dc), (dc, da), (da, db)].map(|(u, v)| (u[0] * v[1], u[1] * v[0]));
+    let lifts = [dot(da, da), dot(db, db), dot(dc, dc)];
+    let term = |k: usize| lifts[k] * (minors[k].0 - minors[k].1);
+    let size = |k: usize| lifts[k] * (minors[k].0.abs() + minors[k].1.abs());
+    let determinant = term(0) + term(1) + term(2);
+    let bound = IN_CIRCLE_BOUND * (size(0) + size(1) + size(2)) + UNDERFLOW;
+    if determinant.abs() > bound {
+        return determinant > 0.0;
+    }
+    exact_in_circle(a, b, c, d)
+}
+
+/// Are the squares and products of this coordinate safe from underflow in expansions?
+fn is_moderate(x: &f64) -> bool {
+    *x == 0.0 || x.abs() > 1e-55
+}
+
+#[cold]
+fn exact_orientation(a: Point, b: Point, c: Point) -> Ordering {
+    if [a, b, c].iter().flatten().all(is_moderate) {
+        return robust::orient2d(coord(a), coord(b), coord(c)).total_cmp(&0.0);
+    }
+    exact_sign(&Orientation, c, &[a, b])
+}
+
+#[cold]
+fn exact_in_circle(a: Point, b: Point, c: Point, d: Point) -> bool {
+    if [a, b, c, d].iter().flatten().all(is_moderate) {
+        return robust::incircle(coord(a), coord(b), coord(c), coord(d)) > 0.0;
+    }
+    exact_sign(&InCircle, d, &[a, b, c]) == Greater
+}
+
+fn coord(p: Point) -> robust::Coord<f64> {
+    robust::Coord { x: p[0], y: p[1] }
+}
+
+/// Twice the signed area of the triangle of the origin and two points.
+struct Orientation;
+
+impl Form<2> for Orientation {
+    fn bound(&self, bits: u32) -> u32 {
+        2 * bits + 1
+    }
+    fn value<T: Number>(&self, [a, b]: &[[T; 2]; 2]) -> T {
+        crate::sign::cross(a, b)
+    }
+}
+
+/// Positive if the origin is inside the circle through three counter-clockwise points.
+struct InCircle;
+
+impl Form<3> for InCircle {
+    fn bound(&self, bits: u32) -> u32 {
+        4 * bits + 4
+    }
+    fn value<T: Number>(&self, [a, b, c]: &[[T; 2]; 3]) -> T {
+        let term = |u: &[T; 2], v: &[T; 2], w: &[T; 2]| {
+            crate::sign::dot(u, u).times(&crate::sign::cross(v, w))
+        };
+        term(a, b, c).plus(&term(b, c, a)).plus(&term(c, a, b))
+    }
+}
+
+/// Is the angle at `apex` between `p` and `q`, seen from the left of p → q, known to be acute or not?
+/// The pair (dot, cross) of the two sides at the apex: the cotangent of the angle is dot / cross.
+#[inline]
+#[must_use]
+pub fn cotangent(apex: Point, p: Point, q: Point) -> (f64, f64) {
+    let (u, v) = (sub(p, apex), sub(q, apex));
+    (dot(u, v), cross(u, v))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_branches_agree_with_each_other_on_a_lattice_a_few_ulps_off() {
+        let near = |x: f64, k: i32| (0..k).fold(x, |x, _| x.next_up());
+        for k in 0..4 {
+            let (a, b, c) = ([0.0, 0.0], [1.0, 0.0], [1.0, near(1.0, k)]);
+            let d = [0.0, near(1.0, (k * 7) % 4)];
+            let by_integers = exact_sign(&InCircle, d, &[a, b, c]) == Greater;
+            assert_eq!(exact_in_circle(a, b, c, d), by_integers);
+            let e = [0.5, near(0.5, k)];
+            assert_eq!(orientation(a, c, e), exact_sign(&Orientation, e, &[a, c]));
+        }
+    }
+
+    #[test]
+    fn underflow_does_not_hide_a_turn() {
+        let tiny = 2f64.powi(-600);
+        assert!(is_left([0.0, 0.0], [tiny, 0.0], [tiny, tiny]));
+        assert!(in_circle([0.0, 0.0], [tiny, 0.0], [0.0, tiny], [tiny / 2.0, tiny / 2.0]));
+    }
+}

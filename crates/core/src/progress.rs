@@ -1,0 +1,67 @@
+//! Watching and stopping a long call from another thread, without a callback inside the core.
+
+use crate::error::{Error, Result};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
+
+/// The stages of a call, in the order in which they run.
+pub const STAGES: [&str; 5] = ["sort", "triangulate", "stars", "select", "trace"];
+
+/// A stage of a call, as an index into [`STAGES`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(usize)]
+pub enum Stage {
+    /// Sorting the points along the space-filling curve.
+    Sort,
+    /// Dividing and conquering.
+    Triangulate,
+    /// Collecting the star of neighbors of each vertex.
+    Stars,
+    /// Deciding edges.
+    Select,
+    /// Joining edges into curves.
+    Trace,
+}
+
+/// The state of a running call: shared by reference, written by the workers, read by the caller.
+#[derive(Debug, Default)]
+pub struct Progress {
+    cancelled: AtomicBool,
+    stage: AtomicUsize,
+    done: AtomicUsize,
+    total: AtomicUsize,
+}
+
+impl Progress {
+    /// Ask the call to stop; it returns [`Error::Cancelled`] soon after.
+    pub fn cancel(&self) {
+        self.cancelled.store(true, Relaxed);
+    }
+
+    /// The current stage's name and the fraction of it that is done.
+    #[must_use]
+    pub fn state(&self) -> (&'static str, f64) {
+        let total = self.total.load(Relaxed).max(1);
+        let fraction = self.done.load(Relaxed) as f64 / total as f64;
+        (STAGES[self.stage.load(Relaxed)], fraction.min(1.0))
+    }
+
+    /// Enter a stage of `total` units of work.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] if the caller asked to stop.
+    pub fn enter(&self, stage: Stage, total: usize) -> Result<()> {
+        self.done.store(0, Relaxed);
+        self.total.store(total, Relaxed);
+        self.stage.store(stage as usize, Relaxed);
+        self.advance(0)
+    }
+
+    /// Report `units` of work as done.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] if the caller asked to stop.
+    pub fn advance(&self, units: usize) -> Result<()> {
+        self.done.fetch_add(units, Relaxed);
+        if self.cancelled.load(Relaxed) { Err(Error::Cancelled) } else { Ok(()) }
+    }
+}

@@ -1,0 +1,245 @@
+//! Exact signs of polynomials, written once and evaluated in up to three number systems.
+//!
+//! A geometric question is the sign of a [`Form`]: a polynomial in the differences of coordinates.
+//! [`sign`] evaluates it first in floating point with a running error bound, then, where the bound
+//! cannot tell, in integers: every double is an integer times a power of two, so the differences are
+//! integers in a common unit. Those fit in 128 bits on lattices and the like, else they are `BigInt`.
+
+use crate::point::{Point, sub};
+use num_bigint::BigInt;
+use std::cmp::Ordering;
+
+/// The ring operations that a [`Form`] may use.
+pub trait Number: Clone {
+    /// The number `value`.
+    fn integer(value: i64) -> Self;
+    /// `self + other`.
+    fn plus(&self, other: &Self) -> Self;
+    /// `self - other`.
+    fn minus(&self, other: &Self) -> Self;
+    /// `self * other`.
+    fn times(&self, other: &Self) -> Self;
+}
+
+/// The dot product of two vectors of numbers.
+pub fn dot<T: Number>(a: &[T; 2], b: &[T; 2]) -> T {
+    a[0].times(&b[0]).plus(&a[1].times(&b[1]))
+}
+
+/// The cross product of two vectors of numbers.
+pub fn cross<T: Number>(a: &[T; 2], b: &[T; 2]) -> T {
+    a[0].times(&b[1]).minus(&a[1].times(&b[0]))
+}
+
+/// The difference of two vectors of numbers.
+pub fn difference<T: Number>(a: &[T; 2], b: &[T; 2]) -> [T; 2] {
+    [a[0].minus(&b[0]), a[1].minus(&b[1])]
+}
+
+/// A polynomial in the coordinates of `N` points relative to an origin.
+///
+/// It must be homogeneous: scaling all coordinates by a positive factor keeps its sign.
+pub trait Form<const N: usize> {
+    /// The binary logarithm of a bound on the value's size, given that each coordinate difference is
+    /// smaller than two to the power `bits`.
+    fn bound(&self, bits: u32) -> u32;
+    /// The value, for the coordinate differences `at`.
+    fn value<T: Number>(&self, at: &[[T; 2]; N]) -> T;
+}
+
+/// The sign of `form` at `points`, relative to `origin`. Always right.
+pub fn sign<const N: usize, F: Form<N>>(form: &F, origin: Point, points: &[Point; N]) -> Ordering {
+    let approximate = form.value(&points.map(|point| sub(point, origin).map(Approximate::rounded)));
+    approximate.sign().unwrap_or_else(|| exact_sign(form, origin, points))
+}
+
+/// The sign of `form` in integers.
+pub fn exact_sign<const N: usize, F: Form<N>>(
+    form: &F,
+    origin: Point,
+    points: &[Point; N],
+) -> Ordering {
+    let unit = points.iter().chain([&origin]).flatten().filter_map(|&x| unit_exponent(x)).min();
+    let Some(unit) = unit else { return Ordering::Equal };
+    small_differences(origin, points, unit)
+        .filter(|at| form.bound(bit_length(at)) < 127)
+        .map_or_else(
+            || form.value(&big_differences(origin, points, unit)).cmp(&BigInt::ZERO),
+            |at| form.value(&at).cmp(&0),
+        )
+}
+
+/// A floating-point number with a bound on its distance from the true value.
+#[derive(Debug, Clone, Copy)]
+pub struct Approximate {
+    value: f64,
+    error: f64,
+}
+
+/// Half the distance from 1 to the next double: the relative error of one rounding.
+const ROUNDING: f64 = f64::EPSILON / 2.0;
+/// Covers the roundings made in computing the bounds themselves.
+const SLACK: f64 = 1.0 + 1e-9;
+
+impl Approximate {
+    /// A number that one rounding led to.
+    #[must_use]
+    pub fn rounded(value: f64) -> Self {
+        Self { value, error: value.abs() * ROUNDING }
+    }
+
+    /// The sign, if the error bound leaves no doubt.
+    #[must_use]
+    pub fn sign(&self) -> Option<Ordering> {
+        // An overflow makes the error infinite or not a number, and the sign unknown.
+        (self.value.abs() > self.error * SLACK).then(|| self.value.total_cmp(&0.0))
+    }
+
+    fn after(value: f64, inherited: f64) -> Self {
+        // The smallest normal number covers underflow.
+        Self { value, error: inherited + value.abs() * ROUNDING + f64::MIN_POSITIVE }
+    }
+}
+
+impl Number for Approximate {
+    fn integer(value: i64) -> Self {
+        Self::rounded(value as f64)
+    }
+    fn plus(&self, other: &Self) -> Self {
+        Self::after(self.value + other.value, self.error + other.error)
+    }
+    fn minus(&self, other: &Self) -> Self {
+        Self::after(self.value - other.value, self.error + other.error)
+    }
+    fn times(&self, other: &Self) -> Self {
+        let inherited = self.value.abs() * other.error
+            + other.value.abs() * self.error
+            + self.error * other.error;
+        Self::after(self.value * other.value, inherited)
+    }
+}
+
+impl Number for i128 {
+    fn integer(value: i64) -> Self {
+        value.into()
+    }
+    fn plus(&self, other: &Self) -> Self {
+        self + other
+    }
+    fn minus(&self, other: &Self) -> Self {
+        self - other
+    }
+    fn times(&self, other: &Self) -> Self {
+        self * other
+    }
+}
+
+impl Number for BigInt {
+    fn integer(value: i64) -> Self {
+        value.into()
+    }
+    fn plus(&self, other: &Self) -> Self {
+        self + other
+    }
+    fn minus(&self, other: &Self) -> Self {
+        self - other
+    }
+    fn times(&self, other: &Self) -> Self {
+        self * other
+    }
+}
+
+/// The finite double `x` as an odd integer (or 0) and the power of two that it is multiplied by.
+#[must_use]
+pub fn decompose(x: f64) -> (i64, i32) {
+    let bits = x.to_bits();
+    let biased = ((bits >> 52) & 0x7ff) as i32;
+    let fraction = (bits & ((1 << 52) - 1)) as i64;
+    let mantissa = if biased == 0 { fraction } else { fraction | (1 << 52) };
+    if mantissa == 0 {
+        return (0, 0);
+    }
+    let zeros = mantissa.trailing_zeros();
+    let odd = mantissa >> zeros;
+    (if x < 0.0 { -odd } else { odd }, biased.max(1) - 1075 + zeros as i32)
+}
+
+/// The exponent of the lowest set bit of `x`, if `x` is not 0.
+fn unit_exponent(x: f64) -> Option<i32> {
+    let (mantissa, exponent) = decompose(x);
+    (mantissa != 0).then_some(exponent)
+}
+
+/// The differences in units of two to the power `unit`, if all coordinates fit in 120 bits.
+fn small_differences<const N: usize>(
+    origin: Point,
+    points: &[Point; N],
+    unit: i32,
+) -> Option<[[i128; 2]; N]> {
+    let integer = |x: f64| {
+        let (mantissa, exponent) = decompose(x);
+        let shift = if mantissa == 0 { 0 } else { exponent - unit };
+        (shift <= 60).then(|| i128::from(mantissa) << shift)
+    };
+    let origin = [integer(origin[0])?, integer(origin[1])?];
+    let mut at = [[0; 2]; N];
+    for (difference, point) in at.iter_mut().zip(points) {
+        *difference = [integer(point[0])? - origin[0], integer(point[1])? - origin[1]];
+    }
+    Some(at)
+}
+
+/// The number of bits of the largest absolute difference.
+fn bit_length<const N: usize>(at: &[[i128; 2]; N]) -> u32 {
+    at.iter().flatten().map(|x| 128 - x.unsigned_abs().leading_zeros()).max().unwrap_or(0)
+}
+
+/// The differences in units of two to the power `unit`, of any size.
+fn big_differences<const N: usize>(
+    origin: Point,
+    points: &[Point; N],
+    unit: i32,
+) -> [[BigInt; 2]; N] {
+    let integer = |x: f64| {
+        let (mantissa, exponent) = decompose(x);
+        let shift = if mantissa == 0 { 0 } else { exponent - unit };
+        BigInt::from(mantissa) << shift
+    };
+    points.map(|point| [0, 1].map(|axis| integer(point[axis]) - integer(origin[axis])))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decompose_gives_back_every_double() {
+        for x in [0.0, 1.0, -1.5, 0.1, 1e300, -5e-324, f64::MAX, f64::MIN_POSITIVE, 3.0e-310] {
+            let (mantissa, exponent) = decompose(x);
+            let half = exponent / 2;
+            let back = mantissa as f64 * 2f64.powi(half) * 2f64.powi(exponent - half);
+            assert_eq!(back.to_bits(), x.to_bits());
+        }
+    }
+
+    struct Turn;
+    impl Form<2> for Turn {
+        fn bound(&self, bits: u32) -> u32 {
+            2 * bits + 1
+        }
+        fn value<T: Number>(&self, [a, b]: &[[T; 2]; 2]) -> T {
+            cross(a, b)
+        }
+    }
+
+    #[test]
+    fn a_sign_is_right_a_hair_from_zero_and_at_the_ends_of_the_range() {
+        for scale in [1.0, 2f64.powi(-900), 2f64.powi(900)] {
+            let at = |x: f64, y: f64| [x * scale, y * scale];
+            let up = at(1.0, 1.0_f64.next_up());
+            assert_eq!(sign(&Turn, at(0.0, 0.0), &[at(3.0, 3.0), at(1.0, 1.0)]), Ordering::Equal);
+            assert_eq!(sign(&Turn, at(0.0, 0.0), &[at(3.0, 3.0), up]), Ordering::Greater);
+            assert_eq!(sign(&Turn, at(0.0, 0.0), &[up, at(3.0, 3.0)]), Ordering::Less);
+        }
+    }
+}
