@@ -2,6 +2,7 @@
 //!
 //! `cargo run --release --example crust_once -- curves 1000000 [threads]`
 
+use crustline_core::methods::crust;
 use crustline_core::{Delaunay, Point, Progress};
 use std::time::Instant;
 
@@ -61,5 +62,8 @@ fn main() {
         let start = Instant::now();
         let delaunay = Delaunay::new(&points, &Progress::default()).expect("finite points");
         println!("delaunay {:.3} s, {} half-edges", start.elapsed().as_secs_f64(), delaunay.stars().half_edges());
+        let start = Instant::now();
+        let edges = crust(&delaunay, &Progress::default()).expect("no one cancels");
+        println!("crust {:.3} s, {} edges", start.elapsed().as_secs_f64(), edges.len());
     });
 }

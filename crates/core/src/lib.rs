@@ -6,11 +6,16 @@
 //! no global state; parallel work runs on the current rayon pool and never changes an answer.
 
 pub mod delaunay;
+pub mod edges;
 pub mod error;
+pub mod methods;
+pub mod pencil;
 pub mod point;
 pub mod predicates;
 pub mod progress;
 pub mod sign;
+pub mod trace;
+pub mod voronoi;
 
 pub use delaunay::Delaunay;
 pub use error::{Error, Result};

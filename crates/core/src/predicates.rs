@@ -5,7 +5,7 @@
 //! sections 4.3 and 4.4; the expansions are the crate `robust`'s. These are exact unless a product
 //! underflows, so coordinates that small take the integers of [`sign`](crate::sign) instead.
 
-use crate::point::{Point, cross, dot, sub};
+use crate::point::{Point, dot, sub};
 use crate::sign::{Form, Number, exact_sign};
 use std::cmp::Ordering::{self, Greater};
 
@@ -52,9 +52,9 @@ pub fn in_circle(a: Point, b: Point, c: Point, d: Point) -> bool {
     exact_in_circle(a, b, c, d)
 }
 
-/// Are the squares and products of this coordinate safe from underflow in expansions?
+/// Are the products of this coordinate safe from underflow and overflow in expansions?
 fn is_moderate(x: &f64) -> bool {
-    *x == 0.0 || x.abs() > 1e-55
+    *x == 0.0 || (1e-55..1e55).contains(&x.abs())
 }
 
 #[cold]
@@ -102,15 +102,6 @@ impl Form<3> for InCircle {
         };
         term(a, b, c).plus(&term(b, c, a)).plus(&term(c, a, b))
     }
-}
-
-/// Is the angle at `apex` between `p` and `q`, seen from the left of p → q, known to be acute or not?
-/// The pair (dot, cross) of the two sides at the apex: the cotangent of the angle is dot / cross.
-#[inline]
-#[must_use]
-pub fn cotangent(apex: Point, p: Point, q: Point) -> (f64, f64) {
-    let (u, v) = (sub(p, apex), sub(q, apex));
-    (dot(u, v), cross(u, v))
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@
 
 use crate::point::{Point, sub};
 use num_bigint::BigInt;
+use num_traits::ToPrimitive;
 use std::cmp::Ordering;
 
 /// The ring operations that a [`Form`] may use.
@@ -67,6 +68,25 @@ pub fn exact_sign<const N: usize, F: Form<N>>(
             || form.value(&big_differences(origin, points, unit)).cmp(&BigInt::ZERO),
             |at| form.value(&at).cmp(&0),
         )
+}
+
+/// The quotient of two forms, `numerator` one degree above `denominator`, rounded once or twice.
+pub fn quotient<const N: usize>(
+    numerator: &impl Form<N>,
+    denominator: &impl Form<N>,
+    origin: Point,
+    points: &[Point; N],
+) -> f64 {
+    let unit = points.iter().chain([&origin]).flatten().filter_map(|&x| unit_exponent(x)).min();
+    let Some(unit) = unit else { return f64::NAN };
+    let at = big_differences(origin, points, unit);
+    let (n, d) = (numerator.value(&at), denominator.value(&at));
+    let shift = d.bits() as i32 - n.bits() as i32 + 64;
+    let (n, d) = if shift >= 0 { (n << shift, d) } else { (n, d << -shift) };
+    let leading = (n / d).to_f64().unwrap_or(f64::NAN);
+    // In two steps, because either power of two alone may be out of range.
+    let exponent = unit - shift;
+    leading * 2f64.powi(exponent / 2) * 2f64.powi(exponent - exponent / 2)
 }
 
 /// A floating-point number with a bound on its distance from the true value.

@@ -1,1 +1,27 @@
-//! placeholder
+//! Python bindings of `crustline-core`: arrays in, arrays out, the interpreter lock released in between.
+
+mod arrays;
+mod call;
+mod delaunay;
+mod errors;
+mod methods;
+mod trace;
+
+use pyo3::prelude::*;
+
+/// The Python module `crustline._core`.
+#[pymodule]
+mod _core {
+    #[pymodule_export]
+    use crate::delaunay::Delaunay;
+    #[pymodule_export]
+    use crate::methods::{crust, one_step_crust};
+    #[pymodule_export]
+    use crate::trace::trace;
+    use pyo3::prelude::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

@@ -5,13 +5,13 @@ mod order;
 mod rings;
 mod sanity;
 mod stars;
+mod triangles;
 
 use crate::error::{Error, Result};
 use crate::point::Point;
 use crate::progress::{Progress, Stage};
 use divide::{SLOTS, Vertices, triangulate};
 use order::{Order, order};
-use rayon::prelude::*;
 use rings::{HalfEdge, NONE};
 pub use stars::{Star, Stars};
 
@@ -136,16 +136,6 @@ impl Delaunay {
             left: star.left(k),
             right: star.right(k),
         })
-    }
-
-    /// The triangles, counter-clockwise, each from its smallest vertex; sorted by that, then around it.
-    #[must_use]
-    pub fn triangles(&self) -> Vec<[u32; 3]> {
-        let from = |p: u32| {
-            let smallest = move |&(q, r): &(u32, u32)| p < q && p < r;
-            self.star(p).wedges().filter(smallest).map(move |(q, r)| [p, q, r])
-        };
-        (0..self.points.len() as u32).into_par_iter().flat_map_iter(from).collect()
     }
 }
 

@@ -1,0 +1,24 @@
+"""Ourselves, under the same rules: NumPy array in, edges or triangulation out."""
+
+from functools import partial
+
+import crustline
+import numpy as np
+
+
+def delaunay(points: np.ndarray, *, threads: int) -> crustline.Delaunay:
+    return crustline.Delaunay(points, threads=threads)
+
+
+def edges_of_delaunay(triangulation: crustline.Delaunay) -> np.ndarray:
+    return triangulation.edges
+
+
+METHODS = {
+    f"{name}-{threads}": (partial(work, threads=threads), edges_of)
+    for threads in (1, 2)
+    for name, work, edges_of in (
+        ("delaunay", delaunay, edges_of_delaunay),
+        ("crust", crustline.crust, np.asarray),
+    )
+}

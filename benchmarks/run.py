@@ -1,0 +1,107 @@
+"""Measure everything: `python -m benchmarks.run` writes docs/benchmarks.md, `--quick` prints it."""
+
+import argparse
+import json
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict
+
+from . import table
+from .build_rivals import available
+from .data import DISTRIBUTIONS, HOSTILE
+from .limits import limits
+from .machine import describe
+from .measure import Bounds, Result, measure
+from .rivals import CGAL_DELAUNAY, OURS, Contender
+from .small_calls import small_calls
+from .targets import Results, errors
+
+FULL = Bounds(turns=5, run_seconds=12, timeout=80)
+QUICK = Bounds(turns=5, run_seconds=0.7, timeout=10)
+
+# The targets speak of these, so that a guess does not leave them out.
+ALWAYS = {*OURS, CGAL_DELAUNAY}
+
+
+def plan(largest: int, quick: bool) -> dict[str, list[int]]:
+    """Return the sizes for each distribution."""
+    if quick:
+        return {name: [10**3, 10**5] for name in ("uniform", "curves")}
+    sizes = {name: [10**k for k in range(3, 7)] for name in DISTRIBUTIONS}
+    sizes |= {name: [10**k for k in range(4, 7)] for name in HOSTILE}
+    for name in ("uniform", "curves"):
+        sizes[name].append(10**7)
+    return {name: [size for size in chosen if size <= largest] for name, chosen in sizes.items()}
+
+
+def run(
+    distribution: str, sizes: Sequence[int], contenders: Sequence[Contender], bounds: Bounds
+) -> Iterator[Result]:
+    """Measure one distribution in growing sizes, leaving out whoever has become too slow."""
+    history: dict[str, list[Result]] = {contender.label: [] for contender in contenders}
+    for size in sizes:
+        notes = {c: reason_to_skip(history[c.label], size, bounds) for c in contenders}
+        chosen = [c for c in contenders if c in ALWAYS or notes[c] is None]
+        for result in measure(distribution, size, chosen, bounds):
+            history[result.label].append(result)
+            print(table.line(result), flush=True)
+            yield result
+        for c in contenders:
+            if c not in chosen:
+                yield Result(distribution, size, size, c.name, c.task, note=notes[c] or "")
+
+
+def reason_to_skip(history: Sequence[Result], size: int, bounds: Bounds) -> str | None:
+    if not history:
+        return None
+    last = history[-1]
+    if last.note:
+        return f"left out: at {last.size:,} points, {last.note}"
+    expected = expected_seconds(history, size)
+    return (
+        f"left out: about {table.seconds(expected)} expected"
+        if expected > bounds.run_seconds
+        else None
+    )
+
+
+def expected_seconds(history: Sequence[Result], size: int) -> float:
+    """Continue the growth seen so far, which is at least linear."""
+    last = history[-1]
+    growth = size / last.size
+    if len(history) > 1:
+        growth = max(growth, last.seconds / history[-2].seconds)
+    return last.seconds * growth
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--quick", action="store_true", help="two distributions, to 10⁵ points")
+    parser.add_argument("--largest", type=int, default=10**7, help="no more points than this")
+    parser.add_argument("--only", nargs="+", help="no distributions but these")
+    options = parser.parse_args()
+    contenders, absent = available()
+    bounds = QUICK if options.quick else FULL
+    results = [
+        result
+        for distribution, sizes in plan(options.largest, options.quick).items()
+        if not options.only or distribution in options.only
+        for result in run(distribution, sizes, contenders, bounds)
+    ]
+    figures = {
+        "machine": describe(),
+        "absent": absent,
+        "results": [asdict(result) for result in results],
+        "small_calls": small_calls(),
+        "limits": limits(),
+    }
+    if options.quick or options.only:
+        print(table.page(figures))
+    else:
+        table.RESULTS.write_text(json.dumps(figures, indent=1))
+        table.publish(figures)
+    return bool(errors(Results(results)))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

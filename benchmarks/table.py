@@ -1,0 +1,210 @@
+"""Turn measured figures into docs/benchmarks.md and its plot; by itself, those of the last run."""
+
+import json
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+from .data import BUILD
+from .measure import Result, ratio
+from .plot import plot
+from .rivals import CGAL_DELAUNAY, CONTENDERS, CRUST, DELAUNAY, OURS, Contender
+from .targets import MILLION, Results, Target, targets
+
+DOCS = Path(__file__).parent.parent / "docs"
+RESULTS = BUILD / "results.json"
+
+INTRODUCTION = """\
+# Benchmarks
+
+Written by `make bench`; every figure is from one run on one machine.
+
+Each contender is a process of its own that holds the points in memory. A turn runs every
+contender once (short work is repeated until it takes 20 ms), and five turns follow one another, A
+B C … A B C …; a time is the median of the turns, a ratio the median of the ratios of two times
+*of the same turn*, so that a slow minute of the machine hits both. The clock runs from the points
+in the contender's own form to its own form of the answer: reading the file and freeing the answer
+are not counted. Peak memory is the highest resident size during the first run, less the resident
+size before it. "crust" is the whole call `crustline.crust`, NumPy array in, edges out; "two
+passes" is the paper's recipe, a triangulation of the points and then of them and their Voronoi
+vertices. All contenders but crustline use one thread.
+"""
+AGREEMENT = """\
+In general position there is one Delaunay triangulation and one crust, and the edges of every
+contender are compared with CGAL's, row by row; what is counted are edges that one of the two has
+and the other has not. CGAL's two-pass crust rounds the Voronoi vertices to doubles. A lattice,
+one circle and repeated points have many triangulations, and the two-pass recipe breaks ties by
+accident: there the number of edges of crustline's crust is held against the definition (lattice:
+all unit edges; one circle: its n sides; line: n − 1; all equal: none; all but one equal: one).
+"""
+LIMITS = (
+    "What a million points cost at least, beside what crustline takes for them on one thread:\n"
+)
+
+
+def publish(figures: dict[str, Any]) -> None:
+    """Write the page and its plot."""
+    DOCS.mkdir(exist_ok=True)
+    plot(load(figures), DOCS / "benchmarks.svg")
+    text = page(figures).replace("## Targets", "![Seconds by points](benchmarks.svg)\n\n## Targets")
+    (DOCS / "benchmarks.md").write_text(text)
+
+
+def page(figures: dict[str, Any]) -> str:
+    """Return the page as Markdown."""
+    results = load(figures)
+    size = min(MILLION, max(result.size for result in results.all))
+    return "\n".join(
+        [
+            INTRODUCTION,
+            markdown(["Machine", ""], figures["machine"].items()),
+            "## Targets\n",
+            markdown(
+                ["target", "at most", "measured", ""],
+                map(target_row, targets(results, figures["small_calls"])),
+            ),
+            f"## Seconds for {size:,} points\n",
+            "In parentheses: times one CGAL triangulation of the same points.\n",
+            by_distribution(results, size, lambda result: with_ratio(results, result)),
+            f"## Processor seconds for {size:,} points\n",
+            by_distribution(results, size, lambda result: seconds(result.processor_seconds)),
+            f"## Peak memory, bytes a point over the input, {size:,} points\n",
+            by_distribution(results, size, lambda result: f"{result.peak_bytes / result.n:.0f}"),
+            "## Seconds by the number of points\n",
+            *(by_size(results, distribution) for distribution in results.distributions),
+            "## Where crustline loses\n",
+            bullets(losses(results)) or "Nowhere in this run.\n",
+            "## Agreement\n",
+            AGREEMENT,
+            by_distribution(results, size, difference),
+            "## Left out\n",
+            bullets(left_out(results, figures["absent"])) or "Nothing.\n",
+            "## Limits\n",
+            LIMITS,
+            markdown(["", "seconds"], limit_rows(results, figures["limits"])),
+        ]
+    )
+
+
+def load(figures: dict[str, Any]) -> Results:
+    return Results(Result(**fields) for fields in figures["results"])
+
+
+def markdown(head: list[str], rows: Iterable[Iterable[str]]) -> str:
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
+
+
+def bullets(lines: Iterable[str]) -> str:
+    return "".join(f"- {line}\n" for line in lines)
+
+
+def seconds(value: float) -> str:
+    """Three digits, in the unit that needs no zeros."""
+    for unit, scale in (("s", 1), ("ms", 1e3), ("µs", 1e6)):
+        if value * scale >= 1:
+            return f"{value * scale:#.3g} {unit}".replace(". ", " ")
+    return f"{value * 1e9:.0f} ns"
+
+
+def line(result: Result) -> str:
+    """Return what is printed while measuring."""
+    place = f"{result.distribution}, {result.n:,} points, {result.label}:"
+    if result.note:
+        return f"{place} {result.note}"
+    bytes_a_point = f"{result.peak_bytes / result.n:.0f} bytes a point"
+    return f"{place} {seconds(result.seconds)}, {bytes_a_point}, {difference(result)}"
+
+
+def target_row(target: Target) -> list[str]:
+    measured = "" if target.measured is None else f"{target.measured:.3g}{target.unit}"
+    return [target.text, f"{target.bound:g}{target.unit}", measured, target.verdict]
+
+
+def by_distribution(results: Results, size: int, cell: Callable[[Result], str]) -> str:
+    """One row for each contender, one column for each distribution."""
+    columns = [name for name in results.distributions if (name, size) in results.places]
+    return markdown(
+        ["", *columns],
+        (
+            [c.label, *(shown(results, name, size, c, cell) for name in columns)]
+            for c in results.contenders
+        ),
+    )
+
+
+def by_size(results: Results, distribution: str) -> str:
+    """One row for each contender, one column for each size."""
+    columns = sorted(size for name, size in results.places if name == distribution)
+    rows = (
+        [
+            c.label,
+            *(
+                shown(results, distribution, size, c, lambda r: seconds(r.seconds))
+                for size in columns
+            ),
+        ]
+        for c in results.contenders
+    )
+    return markdown([distribution, *(f"{size:,}" for size in columns)], rows)
+
+
+def shown(
+    results: Results,
+    distribution: str,
+    size: int,
+    contender: Contender,
+    cell: Callable[[Result], str],
+) -> str:
+    result = results.index.get((distribution, size, contender.label))
+    if result is None:
+        return ""
+    if result.note:
+        return "too slow" if result.note.startswith("left out") else "fails"
+    return cell(result)
+
+
+def with_ratio(results: Results, result: Result) -> str:
+    reference = results.find(result.distribution, result.size, CGAL_DELAUNAY)
+    relation = f" ({ratio(result, reference):.2f})" if reference else ""
+    return seconds(result.seconds) + relation
+
+
+def difference(result: Result) -> str:
+    if result.edges is None:
+        return "not compared"
+    edges = f"{result.edges:,} edges"
+    return edges if result.differing is None else f"{edges}, {result.differing:,} differ"
+
+
+def losses(results: Results) -> Iterator[str]:
+    """Yield where a rival takes less time for the same task than crustline on one thread."""
+    for distribution, size in results.places:
+        for rival in (c for c in CONTENDERS if c not in OURS):
+            ours = CRUST if rival.task == "crust" else DELAUNAY
+            relation = results.ratio(distribution, size, ours, rival)
+            if relation is not None and relation > 1:
+                place = f"{distribution}, {size:,} points, {rival.task}"
+                yield f"{place}: crustline takes {relation:.2f} × the time of {rival.name}."
+
+
+def left_out(results: Results, absent: dict[str, str]) -> Iterator[str]:
+    for label, reason in absent.items():
+        yield f"{label}, everywhere: {reason}"
+    for result in results.all:
+        if result.note:
+            yield f"{result.distribution}, {result.size:,} points, {result.label}: {result.note}"
+
+
+def limit_rows(results: Results, limits: dict[str, float]) -> Iterator[list[str]]:
+    for text, value in limits.items():
+        yield [text, seconds(value)]
+    for distribution in ("uniform", "curves"):
+        for contender in (DELAUNAY, CRUST):
+            result = results.find(distribution, MILLION, contender)
+            if result:
+                yield [f"{contender.label}, {distribution}", seconds(result.seconds)]
+
+
+if __name__ == "__main__":
+    publish(json.loads(RESULTS.read_text()))

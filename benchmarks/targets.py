@@ -1,0 +1,113 @@
+"""The figures that the project set itself, against those measured."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from .data import CRUST_EDGES, DISTRIBUTIONS, HOSTILE
+from .measure import Result, ratio
+from .rivals import CGAL_CRUST, CGAL_DELAUNAY, CONTENDERS, CRUST, CRUST_2, OURS, Contender
+
+MILLION = 10**6
+
+
+@dataclass(frozen=True)
+class Target:
+    """What is asked, the bound, and what was measured: None if it was not."""
+
+    text: str
+    bound: float
+    measured: float | None
+    unit: str = ""
+
+    @property
+    def verdict(self) -> str:
+        if self.measured is None:
+            return "not measured"
+        return "met" if self.measured <= self.bound else "**not met**"
+
+
+class Results:
+    """The results of one run, found by what was measured; a contender that failed is not found."""
+
+    def __init__(self, results: Iterable[Result]) -> None:
+        self.all = list(results)
+        self.places = list(dict.fromkeys((r.distribution, r.size) for r in self.all))
+        self.distributions = list(dict.fromkeys(distribution for distribution, _ in self.places))
+        labels = {result.label for result in self.all}
+        self.contenders = [contender for contender in CONTENDERS if contender.label in labels]
+        self.index = {(r.distribution, r.size, r.label): r for r in self.all}
+
+    def find(self, distribution: str, size: int, contender: Contender) -> Result | None:
+        result = self.index.get((distribution, size, contender.label))
+        return None if result is None or result.note else result
+
+    def ratio(self, distribution: str, n: int, one: Contender, other: Contender) -> float | None:
+        a, b = self.find(distribution, n, one), self.find(distribution, n, other)
+        return ratio(a, b) if a and b else None
+
+
+def largest(values: Iterable[float | None]) -> float | None:
+    return max((value for value in values if value is not None), default=None)
+
+
+def targets(results: Results, small_calls: dict[str, float]) -> Iterator[Target]:
+    """Yield the targets of issue 3, in its order."""
+    for distribution, contender, bound in (
+        ("curves", CRUST, 1.0),
+        ("curves", CRUST_2, 0.6),
+        ("uniform", CRUST, 1.1),
+        ("uniform", CRUST_2, 0.65),
+    ):
+        measured = results.ratio(distribution, MILLION, contender, CGAL_DELAUNAY)
+        text = f"crust of 10⁶ points, {distribution}: {contender.name} / one CGAL triangulation"
+        yield Target(text, bound, measured)
+    yield Target(
+        "crust: 10⁷ points / 10⁶ points", 12, growth(results, ("uniform", "curves"), 10 * MILLION)
+    )
+    yield Target("crust: peak memory over the input", 160, memory(results), " bytes a point")
+    yield small_call(small_calls, 10, 25e-6)
+    yield small_call(small_calls, 1000, 500e-6)
+    every = [*DISTRIBUTIONS, *HOSTILE]
+    worst = largest(results.ratio(d, MILLION, CRUST, CGAL_CRUST) for d in every)
+    yield Target("crust of 10⁶ points, worst distribution: / CGAL's two-pass crust", 0.25, worst)
+    yield Target(
+        "nothing quadratic, worst hostile input: 10⁶ / 10⁵", 20, growth(results, HOSTILE, MILLION)
+    )
+    yield Target(
+        "edges unlike CGAL's (general position), or unlike the definition (ties)",
+        0,
+        errors(results),
+    )
+
+
+def growth(results: Results, distributions: Iterable[str], n: int) -> float | None:
+    pairs = ((results.find(d, n, CRUST), results.find(d, n // 10, CRUST)) for d in distributions)
+    return largest(a.seconds / b.seconds for a, b in pairs if a and b)
+
+
+def memory(results: Results) -> float | None:
+    found = [results.find(d, n, CRUST) for d in DISTRIBUTIONS for n in (MILLION, 10 * MILLION)]
+    return largest(result.peak_bytes / result.n for result in found if result)
+
+
+def small_call(seconds: dict[str, float], n: int, bound: float) -> Target:
+    measured = seconds.get(str(n))
+    return Target(f"crust of {n} points", bound * 1e6, measured and measured * 1e6, " µs")
+
+
+def errors(results: Results) -> int | None:
+    """Return how many edges of ours differ from CGAL's, or in number from the definition."""
+    ours = {contender.label for contender in OURS}
+    return sum_or_none(wrong_edges(result) for result in results.all if result.label in ours)
+
+
+def wrong_edges(result: Result) -> int | None:
+    known = CRUST_EDGES.get(result.distribution)
+    if result.differing is not None or result.edges is None:
+        return result.differing
+    return abs(result.edges - known(result.n)) if known and result.task == "crust" else None
+
+
+def sum_or_none(values: Iterable[int | None]) -> int | None:
+    found = [value for value in values if value is not None]
+    return sum(found) if found else None

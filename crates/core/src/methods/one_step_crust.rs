@@ -1,0 +1,94 @@
+//! The one-step crust.
+//!
+//! C. Gold and J. Snoeyink, "A One-Step Crust and Skeleton Extraction Algorithm", Algorithmica 30 (2001).
+
+use crate::delaunay::{Delaunay, Edge};
+use crate::edges::{Edges, select};
+use crate::error::Result;
+use crate::point::{Point, sub};
+use crate::progress::Progress;
+use crate::sign::{self, Form, Number};
+use std::cmp::Ordering::{Greater, Less};
+
+/// The edges with a disk that touches both ends and holds no point, nor a center of the edge's own triangles.
+///
+/// These are the edges whose opposite angles sum to at most 90°: a superset of the crust.
+///
+/// # Errors
+/// A cancelled `progress`.
+pub fn one_step_crust(delaunay: &Delaunay, progress: &Progress) -> Result<Edges> {
+    select(delaunay, progress, || (), |(), edge| is_in(delaunay, edge))
+}
+
+/// Is `edge` in the one-step crust?
+#[inline]
+pub(super) fn is_in(delaunay: &Delaunay, edge: Edge) -> bool {
+    let (p, q) = (delaunay.point(edge.p), delaunay.point(edge.q));
+    match (edge.left, edge.right) {
+        (Some(left), Some(right)) => {
+            sum_is_at_most_90(p, q, delaunay.point(left), delaunay.point(right))
+        }
+        (Some(apex), None) | (None, Some(apex)) => {
+            // On the hull the other disks reach to infinity, but all hold the midpoint: 90° is too much.
+            sign::sign(&Dot, delaunay.point(apex), &[p, q]) == Greater
+        }
+        (None, None) => true,
+    }
+}
+
+/// Do the angles at `left` and `right`, opposite to p q, sum to at most 90°?
+///
+/// In a Delaunay triangulation they sum to at most 180°, so this is cot · cot ≥ 1.
+#[inline]
+fn sum_is_at_most_90(p: Point, q: Point, left: Point, right: Point) -> bool {
+    let (a, b) = (Angle::at(left, p, q), Angle::at(right, q, p));
+    let difference = a.dot * b.dot - a.cross * b.cross;
+    let bound = 16.0 * f64::EPSILON * (a.size * b.size);
+    if difference.abs() > bound + 1e-150 {
+        return difference > 0.0;
+    }
+    sign::sign(&CotangentProduct, p, &[q, left, right]) != Less
+}
+
+/// An angle as the dot and cross product of its sides, and a bound on their size.
+struct Angle {
+    dot: f64,
+    cross: f64,
+    size: f64,
+}
+
+impl Angle {
+    #[inline]
+    fn at(apex: Point, p: Point, q: Point) -> Self {
+        let ([a, b], [c, d]) = (sub(p, apex), sub(q, apex));
+        let size = (a.abs() + b.abs()) * (c.abs() + d.abs());
+        Self { dot: a * c + b * d, cross: a * d - b * c, size }
+    }
+}
+
+/// The dot product of two vectors.
+struct Dot;
+
+impl Form<2> for Dot {
+    fn bound(&self, bits: u32) -> u32 {
+        2 * bits + 1
+    }
+    fn value<T: Number>(&self, [a, b]: &[[T; 2]; 2]) -> T {
+        sign::dot(a, b)
+    }
+}
+
+/// cot · cot − 1 of the angles at two points opposite to the edge from the origin to `q`, times two cross products.
+struct CotangentProduct;
+
+impl Form<3> for CotangentProduct {
+    fn bound(&self, bits: u32) -> u32 {
+        4 * bits + 8
+    }
+    fn value<T: Number>(&self, [q, left, right]: &[[T; 2]; 3]) -> T {
+        let dot = |apex| sign::dot(apex, &sign::difference(apex, q));
+        let dots = dot(left).times(&dot(right));
+        // The right apex turns the other way, so its cross product counts negatively.
+        dots.plus(&sign::cross(q, left).times(&sign::cross(q, right)))
+    }
+}

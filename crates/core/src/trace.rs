@@ -1,0 +1,178 @@
+//! Tracing: edges joined end to end into rings and polylines.
+
+use crate::edges::Edges;
+use crate::error::Result;
+use crate::point::{Point, lexicographic};
+use crate::predicates::orientation;
+use crate::progress::{Progress, Stage};
+use std::cmp::Ordering::{Equal, Greater, Less};
+
+/// Curves as runs of rows, one after another.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Curves {
+    /// The rows along each curve; a ring does not repeat its first.
+    pub indices: Vec<u32>,
+    /// Curve k is `indices[offsets[k]..offsets[k + 1]]`.
+    pub offsets: Vec<usize>,
+    /// Is curve k a ring?
+    pub closed: Vec<bool>,
+    /// The rows without an edge, ascending.
+    pub isolated: Vec<u32>,
+}
+
+/// Join `edges`, which are canonical, into curves; every edge is in exactly one.
+///
+/// Curves end at endpoints and branches, rows whose degree is not two. A ring starts at its smallest row and runs
+/// counter-clockwise; a polyline starts at its end of smaller row; curves are sorted by their first row, then their second.
+/// A loop based at one branch is a ring. Linear time but for the sort of the curves.
+///
+/// # Errors
+/// A cancelled `progress`.
+pub fn trace(points: &[Point], edges: &Edges, progress: &Progress) -> Result<Curves> {
+    progress.enter(Stage::Trace, edges.len())?;
+    let graph = Incidence::new(points.len(), edges);
+    let mut walk = Walk { edges, graph: &graph, used: vec![false; edges.len()], curves: Curves::default() };
+    walk.curves.offsets.push(0);
+    let rows = 0..points.len() as u32;
+    for row in rows.clone().filter(|&row| !matches!(graph.degree(row), 0 | 2)) {
+        walk.from(row);
+    }
+    progress.advance(walk.curves.indices.len())?;
+    for row in rows.clone().filter(|&row| graph.degree(row) == 2) {
+        walk.from(row);
+    }
+    progress.advance(0)?;
+    let mut curves = walk.curves;
+    for k in 0..curves.closed.len() {
+        let closed = curves.closed[k];
+        let indices = &mut curves.indices[curves.offsets[k]..curves.offsets[k + 1]];
+        if closed { orient_ring(points, indices) } else { orient_polyline(indices) }
+    }
+    curves.isolated = rows.filter(|&row| graph.degree(row) == 0).collect();
+    Ok(curves.sorted())
+}
+
+/// The edges at each row.
+struct Incidence {
+    offsets: Vec<u32>,
+    incident: Vec<u32>,
+}
+
+impl Incidence {
+    fn new(rows: usize, edges: &Edges) -> Self {
+        let mut offsets = vec![0u32; rows + 2];
+        for &row in edges.as_flattened() {
+            offsets[row as usize + 2] += 1;
+        }
+        for row in 1..=rows {
+            offsets[row + 1] += offsets[row];
+        }
+        let mut incident = vec![0; 2 * edges.len()];
+        for (edge, ends) in edges.iter().enumerate() {
+            for &row in ends {
+                let slot = &mut offsets[row as usize + 1];
+                incident[*slot as usize] = edge as u32;
+                *slot += 1;
+            }
+        }
+        Self { offsets, incident }
+    }
+
+    fn at(&self, row: u32) -> &[u32] {
+        let row = row as usize;
+        &self.incident[self.offsets[row] as usize..self.offsets[row + 1] as usize]
+    }
+
+    fn degree(&self, row: u32) -> usize {
+        self.at(row).len()
+    }
+}
+
+/// The state of the tracing.
+struct Walk<'a> {
+    edges: &'a Edges,
+    graph: &'a Incidence,
+    used: Vec<bool>,
+    curves: Curves,
+}
+
+impl Walk<'_> {
+    /// Trace every curve that leaves `row` by an edge not used yet.
+    fn from(&mut self, row: u32) {
+        for &edge in self.graph.at(row) {
+            if !self.used[edge as usize] {
+                self.follow(row, edge);
+            }
+        }
+    }
+
+    fn follow(&mut self, start: u32, mut edge: u32) {
+        let first = self.curves.indices.len();
+        let mut row = start;
+        loop {
+            self.curves.indices.push(row);
+            self.used[edge as usize] = true;
+            let [i, j] = self.edges[edge as usize];
+            row = if i == row { j } else { i };
+            if row == start || self.graph.degree(row) != 2 {
+                break;
+            }
+            let &[a, b] = self.graph.at(row) else { unreachable!("the degree is two") };
+            edge = if a == edge { b } else { a };
+        }
+        let closed = row == start;
+        if !closed {
+            self.curves.indices.push(row);
+        }
+        debug_assert!(self.curves.indices.len() > first);
+        self.curves.offsets.push(self.curves.indices.len());
+        self.curves.closed.push(closed);
+    }
+}
+
+fn orient_polyline(indices: &mut [u32]) {
+    if indices.first() > indices.last() {
+        indices.reverse();
+    }
+}
+
+/// Start at the smallest row and run counter-clockwise.
+///
+/// The turn at the lexicographically smallest point tells the direction of a simple polygon. Where it does not turn there,
+/// as on a ring in one line, the smaller neighbor of the first row comes second.
+fn orient_ring(points: &[Point], indices: &mut [u32]) {
+    let count = indices.len();
+    let start = (0..count).min_by_key(|&k| indices[k]).unwrap_or(0);
+    indices.rotate_left(start);
+    let at = |k: usize| points[indices[k % count] as usize];
+    let corner = (0..count).min_by(|&a, &b| lexicographic(&at(a), &at(b))).unwrap_or(0);
+    let turn = orientation(at(corner + count - 1), at(corner), at(corner + 1));
+    let backward = match turn {
+        Greater => false,
+        Less => true,
+        Equal => indices[1] > indices[count - 1],
+    };
+    if backward {
+        indices[1..].reverse();
+    }
+}
+
+impl Curves {
+    fn curve(&self, k: usize) -> &[u32] {
+        &self.indices[self.offsets[k]..self.offsets[k + 1]]
+    }
+
+    /// The same curves, sorted by their rows.
+    fn sorted(self) -> Self {
+        let mut order: Vec<usize> = (0..self.closed.len()).collect();
+        order.sort_unstable_by(|&a, &b| self.curve(a).cmp(self.curve(b)));
+        let mut sorted = Self { offsets: vec![0], isolated: self.isolated.clone(), ..Self::default() };
+        sorted.indices.reserve_exact(self.indices.len());
+        for k in order {
+            sorted.indices.extend_from_slice(self.curve(k));
+            sorted.offsets.push(sorted.indices.len());
+            sorted.closed.push(self.closed[k]);
+        }
+        sorted
+    }
+}

@@ -1,0 +1,61 @@
+//! Between NumPy arrays and the slices of the core.
+
+use crate::errors::input_error;
+use crustline_core::Point;
+use numpy::{Element, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use pyo3::prelude::*;
+
+/// The rows of an (n, 2) array, without a copy.
+///
+/// `as_points` has made it C-contiguous and finite; the shape is checked here because the slice depends on it.
+pub fn rows<'a, T: Element>(py: Python<'_>, array: &'a PyReadonlyArray2<'_, T>) -> PyResult<&'a [[T; 2]]> {
+    let slice = array.as_slice()?;
+    match slice.as_chunks() {
+        (rows, []) if array.as_array().ncols() == 2 => Ok(rows),
+        _ => Err(input_error(py, "the array must have two columns".to_owned())),
+    }
+}
+
+/// Points as a slice of the core.
+pub fn points<'a>(py: Python<'_>, array: &'a PyReadonlyArray2<'_, f64>) -> PyResult<&'a [Point]> {
+    rows(py, array)
+}
+
+/// A fresh read-only array of integers, `width` to a row.
+pub fn integer_rows<'py, const N: usize>(py: Python<'py>, rows: &[[u32; N]]) -> PyResult<Bound<'py, PyArray2<i64>>> {
+    let array = PyArray2::zeros(py, [rows.len(), N], false);
+    fill(&array, rows.as_flattened(), |&x| i64::from(x))
+}
+
+/// A fresh read-only array of integers.
+pub fn integers<'py>(py: Python<'py>, values: impl ExactSizeIterator<Item = i64>) -> Bound<'py, PyArray1<i64>> {
+    let array = PyArray1::from_iter(py, values);
+    array.readwrite().make_nonwriteable();
+    array
+}
+
+/// A fresh read-only array of coordinates.
+pub fn coordinates<'py>(py: Python<'py>, points: &[Point]) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let array = PyArray2::zeros(py, [points.len(), 2], false);
+    fill(&array, points.as_flattened(), |&x| x)
+}
+
+/// Any values as a fresh read-only array.
+pub fn values<'py, T: Element>(py: Python<'py>, values: Vec<T>) -> Bound<'py, PyArray1<T>> {
+    let array = PyArray1::from_vec(py, values);
+    array.readwrite().make_nonwriteable();
+    array
+}
+
+fn fill<'py, S, T: Element + Copy>(
+    array: &Bound<'py, PyArray2<T>>,
+    source: &[S],
+    convert: impl Fn(&S) -> T,
+) -> PyResult<Bound<'py, PyArray2<T>>> {
+    let mut writable = array.readwrite();
+    for (target, value) in writable.as_slice_mut()?.iter_mut().zip(source) {
+        *target = convert(value);
+    }
+    writable.make_nonwriteable();
+    Ok(array.clone())
+}

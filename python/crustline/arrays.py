@@ -1,0 +1,206 @@
+"""The one door for input: what a caller gives becomes plain arrays, or an `InputError`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from numbers import Real
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from crustline.errors import InputError
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+BoolArray = npt.NDArray[np.bool_]
+
+
+def as_points(points: npt.ArrayLike) -> FloatArray:
+    """Return points as a plain, finite, C-contiguous float64 array of shape (n, 2).
+
+    Parameters
+    ----------
+    points : array_like of float, shape (n, 2)
+        Coordinates, in any one unit. An empty sequence is no points at all.
+
+    Returns
+    -------
+    points : ndarray of float64, shape (n, 2)
+        The same rows in the same order; the caller's own memory where it already fits.
+
+    Raises
+    ------
+    InputError
+        If `points` is not (n, 2); if it holds text, complex numbers, Python objects or masked rows;
+        if a coordinate is not finite, or is no float64 exactly. The message names the first row at
+        fault.
+
+    Notes
+    -----
+    Nothing is rounded: an integer or long double that float64 cannot hold is refused. O(n) time,
+    and no copy for a C-contiguous float64 array.
+
+    Examples
+    --------
+    >>> as_points([(0, 0), (3, 4)])
+    array([[0., 0.],
+           [3., 4.]])
+    """
+    array = _as_array(points)
+    if array.ndim == 1 and array.size == 0:
+        array = np.empty((0, 2))
+    _check_dtype(array, points)
+    _check_shape(array)
+    coordinates = _as_float64(array)
+    finite = np.isfinite(coordinates)
+    if not finite.all():
+        row, column = np.argwhere(~finite)[0]
+        raise InputError(
+            f"points: row {row} has {coordinates[row, column]} in column {column}, "
+            "which is not finite: remove or repair the row"
+        )
+    return coordinates
+
+
+def _as_array(points: npt.ArrayLike) -> npt.NDArray[Any]:
+    if isinstance(points, np.ma.MaskedArray) and np.ma.is_masked(points):
+        row = int(np.argwhere(np.ma.getmaskarray(points))[0][0])
+        raise InputError(f"points: row {row} is masked: remove the masked rows first")
+    try:
+        return np.asarray(points)
+    except (ValueError, TypeError, OverflowError):
+        raise InputError(_name_bad_row(points)) from None
+
+
+def _check_dtype(array: npt.NDArray[Any], points: npt.ArrayLike) -> None:
+    if array.dtype.kind in "fiu":
+        return
+    if array.dtype.kind == "c":
+        raise InputError(
+            f"points: row 0 is complex, {array.flat[0] if array.size else array.dtype}: "
+            "pass the real and imaginary parts as two columns"
+        )
+    raise InputError(_name_bad_row(points))
+
+
+def _check_shape(array: npt.NDArray[Any]) -> None:
+    if array.ndim != 2 or array.shape[1] != 2:
+        advice = (
+            "pass points[:, :2]" if array.ndim == 2 and array.shape[1] > 2 else "pass rows of x, y"
+        )
+        raise InputError(f"points: the shape is {array.shape}, not (n, 2): {advice}")
+
+
+def _as_float64(array: npt.NDArray[Any]) -> FloatArray:
+    with np.errstate(over="ignore"):
+        coordinates = np.ascontiguousarray(array, dtype=np.float64)
+    wide = array.dtype.itemsize > 8 or (array.dtype.kind in "iu" and array.dtype.itemsize == 8)
+    if wide:
+        _check_exact(array, coordinates)
+    return coordinates
+
+
+def _check_exact(array: npt.NDArray[Any], coordinates: FloatArray) -> None:
+    """Refuse values that float64 rounds; beyond 2**53 only some integers have a float64."""
+    if array.dtype.kind in "iu":
+        suspects = np.abs(coordinates) >= 2.0**53
+    else:
+        suspects = (coordinates != array) & ~np.isnan(coordinates)
+    for row, column in np.argwhere(suspects):
+        value = array[row, column]
+        if array.dtype.kind == "f" or int(value) != int(coordinates[row, column]):
+            raise InputError(
+                f"points: row {row} has {value}, which float64 cannot hold exactly: "
+                "subtract an offset or round it yourself"
+            )
+
+
+def _name_bad_row(points: Any) -> str:
+    """Return the sentence about the first row that is not a pair of numbers."""
+    if isinstance(points, str | bytes) or not isinstance(points, Iterable):
+        return f"points: {points!r:.60} is not an array of shape (n, 2): pass rows of x, y"
+    if iter(points) is points:
+        return f"points: {type(points).__name__} is not an array: pass a list of rows of x, y"
+    for number, row in enumerate(points):
+        fault = _fault_of_row(row)
+        if fault:
+            return f"points: row {number} {fault}: pass rows of two numbers x, y"
+    return "points: the values are Python objects, not numbers: convert them to float64"
+
+
+def _fault_of_row(row: Any) -> str | None:
+    if isinstance(row, str | bytes) or not hasattr(row, "__len__"):
+        return f"is {row!r:.60}"
+    if len(row) != 2:
+        return f"has {len(row)} values"
+    for value in row:
+        if isinstance(value, bool | np.bool_) or not isinstance(value, Real):
+            return f"has {value!r:.60}, which is not a real number"
+    return None
+
+
+def as_edges(edges: npt.ArrayLike, n: int) -> IntArray:
+    """Return edges between n points as int64 rows i < j, sorted and unique.
+
+    Parameters
+    ----------
+    edges : array_like of int, shape (m, 2)
+        Rows of points, in any order and direction; a repeated edge counts once.
+    n : int
+        The number of points.
+
+    Returns
+    -------
+    edges : ndarray of int64, shape (m, 2)
+        i < j in each row, rows sorted, unique.
+
+    Raises
+    ------
+    InputError
+        If `edges` is not (m, 2), holds anything but integers from 0 to n - 1, or joins a point to
+        itself. The message names the first row at fault.
+
+    Examples
+    --------
+    >>> as_edges([(2, 1), (0, 1), (1, 2)], 3).tolist()
+    [[0, 1], [1, 2]]
+    """
+    try:
+        array = np.asarray(edges)
+    except (ValueError, TypeError, OverflowError):
+        raise InputError(
+            "edges: the rows are not all pairs of integers: pass rows of i, j"
+        ) from None
+    if array.size == 0 and array.shape in ((0,), (0, 2)):
+        return np.empty((0, 2), dtype=np.int64)
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise InputError(f"edges: the shape is {array.shape}, not (m, 2): pass rows of i, j")
+    if array.dtype.kind not in "iu":
+        raise InputError(
+            f"edges: row 0 is {array[0].tolist()}, not two integers: pass rows of i, j"
+        )
+    _check_ends(array, n)
+    return _canonical(np.ascontiguousarray(array, dtype=np.int64), n)
+
+
+def _check_ends(edges: npt.NDArray[Any], n: int) -> None:
+    outside = ((edges < 0) | (edges >= n)).any(axis=1)
+    if outside.any():
+        row = int(np.argmax(outside))
+        raise InputError(
+            f"edges: row {row} is {edges[row].tolist()}, but there are {n} points, 0 to {n - 1}: "
+            "pass edges of these points"
+        )
+    loops = edges[:, 0] == edges[:, 1]
+    if loops.any():
+        row = int(np.argmax(loops))
+        raise InputError(f"edges: row {row} joins point {edges[row, 0]} to itself: remove it")
+
+
+def _canonical(edges: IntArray, n: int) -> IntArray:
+    """Sort edges by one int64 key each; what a method returned is in order already."""
+    keys = edges.min(axis=1) * n + edges.max(axis=1)
+    if (keys[1:] > keys[:-1]).all() and (edges[:, 0] < edges[:, 1]).all():
+        return edges
+    return np.stack(np.divmod(np.unique(keys), n), axis=1)

@@ -1,0 +1,392 @@
+"""Curves: edges traced into ordered rings and polylines, and rings nested into polygons."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from os import PathLike
+from typing import Any, overload
+
+import numpy as np
+import numpy.typing as npt
+from crustline.delaunay import Delaunay
+from crustline.methods import crust
+
+from crustline import _core
+from crustline.arrays import BoolArray, FloatArray, IntArray, as_edges, as_points
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """One ring or polyline, as rows of the points.
+
+    Attributes
+    ----------
+    indices : ndarray of int64, shape (k,)
+        Rows of the points, in order along the curve. A ring does not repeat its first index.
+    closed : bool
+        Whether the last point is joined to the first.
+    points : ndarray of float64, shape (k, 2)
+        The coordinates of these rows.
+    """
+
+    indices: IntArray
+    closed: bool
+    points: FloatArray
+
+    @property
+    def length(self) -> float:
+        """The sum of the lengths of the edges, in the unit of the points; float64 accuracy."""
+        steps = np.diff(self.points, axis=0)
+        if self.closed:
+            steps = np.concatenate([steps, self.points[:1] - self.points[-1:]])
+        return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
+
+    def __len__(self) -> int:
+        return len(self.indices)
+
+    def __repr__(self) -> str:
+        return f"<Curve: {'ring' if self.closed else 'polyline'} of {len(self)} points>"
+
+
+@dataclass(frozen=True, eq=False)
+class Polygon:
+    """A ring and the rings that are holes in it.
+
+    Attributes
+    ----------
+    shell : ndarray of int64, shape (k,)
+        Rows of the points around the outside, counter-clockwise; the first is not repeated.
+    holes : tuple of ndarray of int64
+        Rows around each hole, counter-clockwise, too, as `Curves` holds them.
+    """
+
+    shell: IntArray
+    holes: tuple[IntArray, ...] = ()
+
+    def __repr__(self) -> str:
+        return f"<Polygon: {len(self.shell)} points, {len(self.holes)} holes>"
+
+
+@dataclass(frozen=True, eq=False)
+class Curves(Sequence[Curve]):
+    """Rings and polylines as ragged rows of points; a sequence of `Curve`.
+
+    Rings start at their smallest index and run counter-clockwise, polylines start at their end of
+    smaller index, and curves are sorted by their first index. Every edge is in exactly one curve.
+
+    Attributes
+    ----------
+    points : Points or ndarray of float64, shape (n, 2)
+        The points that were traced, with what they carry.
+    indices : ndarray of int64, shape (k,)
+        Rows of the points, curve after curve.
+    offsets : ndarray of int64, shape (c + 1,)
+        Curve number i is ``indices[offsets[i]:offsets[i + 1]]``.
+    closed : ndarray of bool, shape (c,)
+        Whether each curve is a ring.
+    isolated : ndarray of int64, shape (s,)
+        Rows of the points that no edge touches, sorted.
+
+    Examples
+    --------
+    >>> curves = trace([(0, 0), (1, 0), (1, 1), (0, 1), (5, 5)], [(0, 1), (1, 2), (2, 3), (0, 3)])
+    >>> curves
+    <Curves: 1 ring, 0 polylines, 1 isolated point; 5 points>
+    >>> curves[0].indices.tolist(), curves[0].length
+    ([0, 1, 2, 3], 4.0)
+    """
+
+    points: FloatArray
+    indices: IntArray
+    offsets: IntArray
+    closed: BoolArray
+    isolated: IntArray
+
+    def __len__(self) -> int:
+        return len(self.closed)
+
+    @overload
+    def __getitem__(self, key: int) -> Curve: ...
+    @overload
+    def __getitem__(self, key: slice) -> list[Curve]: ...
+    def __getitem__(self, key: int | slice) -> Curve | list[Curve]:
+        if isinstance(key, slice):
+            return [self._curve(number) for number in range(len(self))[key]]
+        return self._curve(range(len(self))[key])
+
+    def __iter__(self) -> Iterator[Curve]:
+        return map(self._curve, range(len(self)))
+
+    def _curve(self, number: int) -> Curve:
+        indices = self.indices[self.offsets[number] : self.offsets[number + 1]]
+        return Curve(indices, bool(self.closed[number]), self.coordinates[indices])
+
+    @cached_property
+    def coordinates(self) -> FloatArray:
+        """The points as a plain array, shape (n, 2)."""
+        return np.asarray(self.points)
+
+    @cached_property
+    def _steps(self) -> tuple[IntArray, IntArray, IntArray]:
+        """Return for every edge the positions in `indices` of its ends, and its curve."""
+        ends = np.arange(1, len(self.indices) + 1)
+        ends[self.offsets[1:] - 1] = np.where(self.closed, self.offsets[:-1], -1)
+        starts = np.flatnonzero(ends >= 0)
+        numbers = np.repeat(np.arange(len(self)), np.diff(self.offsets))
+        return starts, ends[starts], numbers[starts]
+
+    @cached_property
+    def edges(self) -> IntArray:
+        """The edges that were traced, shape (m, 2): i < j in each row, rows sorted."""
+        starts, ends, _ = self._steps
+        pairs = np.stack([self.indices[starts], self.indices[ends]], axis=1)
+        return _read_only(as_edges(pairs, len(self.points)))
+
+    @cached_property
+    def lengths(self) -> FloatArray:
+        """The length of every curve, shape (c,), in the unit of the points; float64 accuracy."""
+        starts, ends, numbers = self._steps
+        steps = self.coordinates[self.indices[ends]] - self.coordinates[self.indices[starts]]
+        lengths = np.hypot(steps[:, 0], steps[:, 1])
+        return _read_only(np.bincount(numbers, weights=lengths, minlength=len(self)))
+
+    @cached_property
+    def _degrees(self) -> IntArray:
+        return np.bincount(self.edges.ravel(), minlength=len(self.points))
+
+    @property
+    def endpoints(self) -> IntArray:
+        """Rows of the points with exactly one edge, sorted."""
+        return np.flatnonzero(self._degrees == 1)
+
+    @property
+    def branches(self) -> IntArray:
+        """Rows of the points with three or more edges, sorted."""
+        return np.flatnonzero(self._degrees >= 3)
+
+    def polygons(self) -> list[Polygon]:
+        """Return the rings as polygons, nested by even-odd containment.
+
+        A ring inside an even number of other rings is a shell, one inside an odd number is a hole
+        of the innermost shell around it; an island in a lake is a shell again. Polylines are left
+        out.
+
+        Returns
+        -------
+        polygons : list of Polygon
+            In the order of their shells in the curves; holes, too, are in the order of the curves.
+
+        Notes
+        -----
+        Exact where edges meet at points only, as those of every method do: a ring lies in another
+        if a point of its own does, which is decided by signs without rounding. Rings that cross
+        each other have no nesting: there a ring counts as inside if its first point off the others
+        is, and a hole without a shell around it becomes a shell. Each ring looks at the edges in
+        one of √k horizontal strips: about O(k log k + c √k) time for k points on c rings.
+        """
+        rings = np.flatnonzero(self.closed).tolist()
+        if not rings:
+            return []
+        return _nest([self._curve(number).indices for number in rings], self.coordinates)
+
+    def write(
+        self, path: str | PathLike[str], *, format: str | None = None, polygons: bool = False
+    ) -> None:
+        """Write the curves to a file: see `crustline.write`, which says what each format holds."""
+        from crustline.formats import write
+
+        write(self, path, format=format, polygons=polygons)
+
+    def _repr_svg_(self) -> str:
+        """Return the picture that notebooks show."""
+        from crustline.formats.svg import write_svg
+
+        return write_svg(self).decode()
+
+    def __repr__(self) -> str:
+        rings = int(np.count_nonzero(self.closed))
+        counts = [(rings, "ring"), (len(self) - rings, "polyline")]
+        counts.append((len(self.isolated), "isolated point"))
+        words = ", ".join(f"{count} {word}{'s' * (count != 1)}" for count, word in counts)
+        return f"<Curves: {words}; {len(self.points)} points>"
+
+
+def trace(points: npt.ArrayLike, edges: npt.ArrayLike) -> Curves:
+    """Return edges traced into curves: rings and polylines, split at branches.
+
+    A curve runs through points of degree 2 and ends at points of any other degree; a loop based at
+    one branch, and a cycle without branches, are rings.
+
+    Parameters
+    ----------
+    points : array_like of float, shape (n, 2)
+        Coordinates, in any one unit. Finite. A `Points` is kept with all it carries.
+    edges : array_like of int, shape (m, 2)
+        Rows of `points`, in any order and direction; a repeated edge counts once.
+
+    Returns
+    -------
+    curves : Curves
+        Every edge is in exactly one curve. Rings start at their smallest index and run
+        counter-clockwise, polylines start at their end of smaller index; sorted by first index.
+
+    Raises
+    ------
+    InputError
+        If points or edges do not fit; the message names the first row at fault.
+
+    Notes
+    -----
+    Exact: the direction of a ring is the sign of its area without rounding. O(n + m log m) time.
+
+    Examples
+    --------
+    >>> curves = trace([(0, 0), (1, 0), (2, 0), (9, 9)], [(2, 1), (0, 1)])
+    >>> curves[0].indices.tolist(), curves[0].closed, curves.isolated.tolist()
+    ([0, 1, 2], False, [3])
+    """
+    coordinates = as_points(points)
+    ragged = _core.trace(coordinates, as_edges(edges, len(coordinates)))
+    kept = points if isinstance(points, np.ndarray) and points.dtype == np.float64 else coordinates
+    return Curves(kept, *map(_read_only, ragged))
+
+
+def reconstruct(
+    points: npt.ArrayLike | Delaunay,
+    method: Callable[..., npt.ArrayLike] = crust,
+    **parameters: Any,
+) -> Curves:
+    """Return the curves that the points were sampled from, by a method.
+
+    Parameters
+    ----------
+    points : array_like of float, shape (n, 2), or Delaunay
+        Coordinates, in any one unit. Finite. A `Points` is kept with all it carries.
+    method : callable, default `crust`
+        Takes the points as they were passed and returns edges.
+    **parameters
+        Passed on to the method, such as ``beta=1.5`` for `beta_skeleton`.
+
+    Returns
+    -------
+    curves : Curves
+        The edges of the method, traced: see `trace`.
+
+    Raises
+    ------
+    InputError
+        If the points, a parameter or the edges that the method returns do not fit.
+
+    Examples
+    --------
+    >>> curves = reconstruct([(0, 0), (1, 1), (1, 0), (0, 1)])
+    >>> curves[0].indices.tolist(), curves[0].closed
+    ([0, 2, 1, 3], True)
+    """
+    edges = method(points, **parameters)
+    return trace(points.points if isinstance(points, Delaunay) else points, edges)
+
+
+def _read_only(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    array.flags.writeable = False
+    return array
+
+
+# Nesting. Every ring asks one point of its own for the rings around it: the ones whose edges a ray
+# to the right crosses an odd number of times. Strips in y keep the edges that a ray has to look at
+# few.
+
+
+def _nest(rings: list[IntArray], coordinates: FloatArray) -> list[Polygon]:
+    around = _rings_around(rings, coordinates)
+    depths = np.array([len(each) for each in around])
+    holes: dict[int, list[IntArray]] = {n: [] for n in np.flatnonzero(depths % 2 == 0).tolist()}
+    for number in np.flatnonzero(depths % 2).tolist():
+        shell = _innermost_shell(around[number], depths)
+        if shell is None:
+            holes[number] = []
+        else:
+            holes[shell].append(rings[number])
+    return [Polygon(rings[number], tuple(holes[number])) for number in sorted(holes)]
+
+
+def _innermost_shell(around: IntArray, depths: IntArray) -> int | None:
+    shells = around[depths[around] % 2 == 0]
+    return int(shells[np.argmax(depths[shells])]) if len(shells) else None
+
+
+def _rings_around(rings: list[IntArray], coordinates: FloatArray) -> list[IntArray]:
+    """Return for each ring the numbers of the rings that its own point lies in."""
+    starts = np.concatenate(rings)
+    ends = np.concatenate([np.roll(ring, -1) for ring in rings])
+    owners = np.repeat(np.arange(len(rings)), [len(ring) for ring in rings])
+    strips = _Strips(coordinates[starts], coordinates[ends])
+    own = coordinates[_own_points(rings, starts)]
+    around = []
+    for number, point in enumerate(own):
+        crossed = owners[strips.crossed(point)]
+        inside, counts = np.unique(crossed[crossed != number], return_counts=True)
+        around.append(inside[counts % 2 == 1])
+    return around
+
+
+def _own_points(rings: list[IntArray], all_rows: IntArray) -> IntArray:
+    """Return a point of each ring that no other ring touches; only a branch can be shared."""
+    uses = np.bincount(all_rows)
+    return np.array([ring[np.argmin(uses[ring])] for ring in rings])
+
+
+class _Strips:
+    """Edges by horizontal strips, to find those that a horizontal ray crosses."""
+
+    def __init__(self, starts: FloatArray, ends: FloatArray) -> None:
+        upward = starts[:, 1] <= ends[:, 1]
+        self.low = np.where(upward[:, None], starts, ends)
+        self.high = np.where(upward[:, None], ends, starts)
+        count = min(4096, 1 + int(np.sqrt(len(starts))))
+        # Strips with equally many points each: an even spacing would put a dense region into one.
+        self.bounds = np.quantile(
+            self.low[:, 1], np.linspace(0, 1, count + 1)[1:-1], method="lower"
+        )
+        first = np.searchsorted(self.bounds, self.low[:, 1], side="right")
+        last = np.searchsorted(self.bounds, self.high[:, 1], side="right")
+        spans = last - first + 1
+        edges = np.repeat(np.arange(len(starts)), spans)
+        within = np.arange(len(edges)) - np.repeat(np.cumsum(spans) - spans, spans)
+        strip = first[edges] + within
+        self.edges = edges[np.argsort(strip, kind="stable")]
+        self.offsets = np.concatenate([[0], np.cumsum(np.bincount(strip, minlength=count))])
+
+    def crossed(self, point: FloatArray) -> IntArray:
+        """Return the edges that the ray from the point to the right crosses, not only touches."""
+        strip = np.searchsorted(self.bounds, point[1], side="right")
+        edges = self.edges[self.offsets[strip] : self.offsets[strip + 1]]
+        low, high = self.low[edges], self.high[edges]
+        meets = (low[:, 1] <= point[1]) & (point[1] < high[:, 1])
+        meets &= np.maximum(low[:, 0], high[:, 0]) > point[0]
+        low, high, edges = low[meets], high[meets], edges[meets]
+        crossed: IntArray = edges[_left_of(point, low, high)]
+        return crossed
+
+
+def _left_of(point: FloatArray, low: FloatArray, high: FloatArray) -> BoolArray:
+    """Return whether the point is strictly left of each edge from low to high, exactly."""
+    with np.errstate(all="ignore"):
+        one = (high[:, 0] - low[:, 0]) * (point[1] - low[:, 1])
+        other = (high[:, 1] - low[:, 1]) * (point[0] - low[:, 0])
+        turn = one - other
+        # Shewchuk's ccwerrboundA, and a floor under which a product may have lost bits.
+        bound = 3.3306690738754716e-16 * (np.abs(one) + np.abs(other)) + 1e-290
+        sure = np.abs(turn) > bound
+    left: BoolArray = turn > 0
+    for number in np.flatnonzero(~sure):
+        left[number] = _exact_turn(low[number], high[number], point) > 0
+    return left
+
+
+def _exact_turn(a: FloatArray, b: FloatArray, c: FloatArray) -> Fraction:
+    (ax, ay), (bx, by), (cx, cy) = (map(Fraction, point.tolist()) for point in (a, b, c))
+    return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)

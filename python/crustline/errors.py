@@ -1,0 +1,26 @@
+"""The exceptions that crustline raises, all of them `CrustlineError`."""
+
+from __future__ import annotations
+
+
+class CrustlineError(Exception):
+    """The base of every error that crustline raises on purpose."""
+
+
+class InputError(CrustlineError, ValueError):
+    """Points, edges or an option that no answer can be given for; names the row and the value."""
+
+
+class FormatError(CrustlineError, ValueError):
+    """A file that cannot be read or written; names the file and, where there is one, the line."""
+
+
+class MissingExtraError(CrustlineError, ImportError):
+    """A feature whose optional packages are not installed; names the extra to install."""
+
+
+def missing_extra(extra: str, package: str) -> MissingExtraError:
+    """Return the error that says which extra of crustline brings `package`."""
+    return MissingExtraError(
+        f"this needs {package}, which is not installed: run pip install 'crustline[{extra}]'"
+    )

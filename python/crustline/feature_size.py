@@ -1,0 +1,475 @@
+"""The local feature size LFS (paper, §5): the distance from a point of a curve to the medial axis.
+
+For a smooth curve it is computed here, from the definition. The medial axis is the closure of the centers of the
+maximal empty disks; each of them touches the curve at some q. So the axis is traced by walking q along the curve,
+and on each side of it the largest empty disk that touches the curve at q has the curvature
+
+    max over x on the curve of  2 n·(x − q) / |x − q|²,
+
+where n is the unit normal at q to that side; as x → q the fraction tends to the curve's own curvature, which gives the
+osculating disks. For samples of an unknown curve `crustline.medial` estimates it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any, cast
+
+import numpy as np
+import numpy.typing as npt
+
+from crustline.errors import InputError
+from crustline.shapes import SmoothCurve
+
+__all__ = ["CurveMedialAxis", "local_feature_size", "medial_axis_of_curve", "nearest_site"]
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+
+# The grid on which contacts are sought: its spacing over the radius of the smallest empty disk that touches there,
+# the smallest number of its nodes in a piece of a loop, and the largest number in all.
+RESOLUTION = 0.15
+NODES_PER_PIECE = 24
+NODES_PER_LOOP = 240
+MOST_NODES = 200_000
+MOST_ROUNDS = 40
+TERNARY_ROUNDS = 45
+# Matrices of distances are made in blocks of this many entries.
+BLOCK = 1 << 20
+
+
+@dataclass(frozen=True, eq=False)
+class CurveMedialAxis:
+    """The medial axis of a smooth curve, on both sides, as far as it matters to the curve's local feature size.
+
+    Attributes
+    ----------
+    vertices : ndarray of float64, shape (v, 2)
+        Points of the axis: centers of maximal empty disks.
+    radii : ndarray of float64, shape (v,)
+        The radii of those disks.
+    segments : ndarray of int64, shape (s, 2)
+        Rows of `vertices` that follow one another along the axis. The axis between them is near the segment.
+    error : float
+        Bound for the relative error of a distance from the curve to the vertices and segments; 0 if the axis is
+        known in closed form.
+
+    Notes
+    -----
+    Parts of the axis whose disks are larger than half the extent of the curve are left out: no point of the curve
+    has its nearest point of the axis there. An interior disk gives each point a nearer one.
+    """
+
+    vertices: FloatArray
+    radii: FloatArray
+    segments: IntArray
+    error: float
+
+    def distance(self, points: npt.ArrayLike) -> FloatArray:
+        """Return the distance from each of points (k, 2) to the axis, shape (k,)."""
+        p = np.asarray(points, dtype=np.float64).reshape(-1, 2)
+        distance, vertex = nearest_site(p, self.vertices)
+        for column in range(2):
+            # A vertex begins at most one segment and ends at most one: the two that its walk along the curve links.
+            link = np.full(len(self.vertices), -1)
+            link[self.segments[:, column]] = self.segments[:, 1 - column]
+            other = link[vertex]
+            k = np.flatnonzero(other >= 0)
+            foot = _distance_to_segments(p[k], self.vertices[vertex[k]], self.vertices[other[k]])
+            distance[k] = np.minimum(distance[k], foot)
+        return distance
+
+
+def local_feature_size(
+    curve_or_points: SmoothCurve | npt.ArrayLike,
+    t_or_edges: npt.ArrayLike,
+    *,
+    rtol: float = 1e-4,
+) -> FloatArray:
+    """Return the local feature size: the distance from points of a curve to its medial axis.
+
+    Parameters
+    ----------
+    curve_or_points : SmoothCurve, or array_like of float, shape (n, 2)
+        A known smooth curve, or samples of an unknown one.
+    t_or_edges : array_like of float, any shape, or array_like of int, shape (m, 2)
+        For a curve: where on it, t in [0, 1). For samples: the edges that reconstruct it.
+    rtol : float
+        For a curve: the relative error asked for. Not used for samples.
+
+    Returns
+    -------
+    sizes : ndarray of float64
+        For a curve: one for each t, of the shape of t. For samples: one for each point, shape (n,).
+
+    Raises
+    ------
+    InputError
+        If the curve crosses or touches itself.
+
+    Notes
+    -----
+    For a curve: exact up to rounding for one circle, ellipse or stadium, whose medial axes are known; otherwise within `rtol`, see
+    `medial_axis_of_curve`. It is 1-Lipschitz in the distance (but not differentiable), never larger than the radius of
+    curvature, and scales with the curve. For samples: an estimate, see `crustline.medial.feature_size_of_samples`.
+
+    References
+    ----------
+    .. [1] N. Amenta, M. Bern, D. Eppstein, "The Crust and the β-Skeleton: Combinatorial Curve
+       Reconstruction", Graphical Models and Image Processing 60 (1998), 125–135. Sections 4 and 5.
+
+    Examples
+    --------
+    >>> from crustline.shapes import ellipse
+    >>> local_feature_size(ellipse(2, 1), [0, 0.25]).tolist()
+    [0.5, 1.0]
+    """
+    if isinstance(curve_or_points, SmoothCurve):
+        t = np.asarray(t_or_edges, dtype=np.float64)
+        axis = medial_axis_of_curve(curve_or_points, rtol=rtol)
+        return axis.distance(curve_or_points.point(t)).reshape(t.shape)
+    from crustline.medial import feature_size_of_samples
+
+    return cast(FloatArray, feature_size_of_samples(cast(Any, curve_or_points), cast(Any, t_or_edges)))
+
+
+@lru_cache(maxsize=128)
+def medial_axis_of_curve(curve: SmoothCurve, *, rtol: float = 1e-4) -> CurveMedialAxis:
+    """Return the medial axis of a smooth curve, accurate enough for its local feature size within rtol.
+
+    Parameters
+    ----------
+    curve : SmoothCurve
+        All its components count: the axis runs between them, too.
+    rtol : float
+        In [1e-8, 0.1]. Bound for the relative error of the distance from the curve to the axis.
+
+    Raises
+    ------
+    InputError
+        If the curve crosses or touches itself, so that its medial axis meets it.
+
+    Notes
+    -----
+    A single circle, ellipse or stadium has its axis in closed form. Otherwise the axis is traced by vertices no
+    farther apart than √(8 rtol) times the radii of their disks. The nearest point of the axis to a point of the curve is
+    at least that radius away and the line to it is perpendicular to the axis (or it is an end of the axis, where
+    vertices crowd), so the nearest vertex is within a factor 1 + rtol as long as the axis between two vertices stays
+    within the disk on the segment between them; the segments make the error smaller still, in general by more
+    than ten times. Features narrower than about 10⁻⁵ of the length of their loop may be missed.
+
+    The axis is kept for the next call with the same curve.
+    """
+    if not 1e-8 <= rtol <= 0.1:
+        raise InputError(f"rtol must be in [1e-8, 0.1], not {rtol}")
+    if len(curve.loops) == 1 and curve.loops[0].axis is not None:
+        return _known_axis(curve, curve.loops[0].axis)
+    grid = _contact_grid(curve)
+    return _linked(_traced(curve, grid, math.sqrt(8 * rtol)), rtol)
+
+
+def _known_axis(curve: SmoothCurve, ends: FloatArray) -> CurveMedialAxis:
+    radii, _ = nearest_site(ends, curve.point(np.arange(4096) / 4096))
+    rows = np.arange(len(ends))
+    return CurveMedialAxis(ends, radii, np.stack([rows[:-1], rows[1:]], -1), 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class _Nodes:
+    """Points along the curve in the order of t, with what the search for empty disks needs to know of them."""
+
+    curve: SmoothCurve
+    t: FloatArray
+    loop: IntArray
+    point: FloatArray
+    normal: FloatArray
+    curvature: FloatArray
+    following: IntArray  # the row of the next node along the loop
+
+    def middles(self, rows: IntArray) -> FloatArray:
+        """Return t halfway between these nodes and those that follow them."""
+        return self.t[rows] + self.steps()[rows] / 2
+
+    def steps(self) -> FloatArray:
+        """Return how far on in t the following node is."""
+        step = self.t[self.following] - self.t
+        return np.where(step > 0, step, step + 1 / len(self.curve.loops))
+
+    def near(self, rows: IntArray, offsets: FloatArray) -> FloatArray:
+        """Return t of these nodes plus offsets, within the node's own loop."""
+        c, loop = len(self.curve.loops), self.loop[rows].reshape(-1, *[1] * (offsets.ndim - 1))
+        local = (self.t[rows].reshape(loop.shape) + offsets) * c - loop
+        return np.asarray((loop + local % 1.0) / c)
+
+    def extent(self) -> float:
+        """Return the diagonal of the bounding box."""
+        return float(np.hypot(*np.ptp(self.point, axis=0)))
+
+
+def _nodes(curve: SmoothCurve, t: FloatArray) -> _Nodes:
+    c = len(curve.loops)
+    loop = np.minimum((t * c).astype(np.int64), c - 1)
+    following = np.arange(1, len(t) + 1)
+    last = np.flatnonzero(np.append(loop[1:] != loop[:-1], True))
+    following[last] = np.concatenate([[0], last[:-1] + 1])
+    normal = curve.normal(t)
+    return _Nodes(curve, t, loop, curve.point(t), normal, curve.curvature(t), following)
+
+
+def _contact_grid(curve: SmoothCurve) -> _Nodes:
+    """Return nodes so close that no contact of an empty disk is missed between them."""
+    grid = _nodes(curve, _first_nodes(curve))
+    _refuse_crossings(grid)
+    for _ in range(MOST_ROUNDS):
+        tight = np.maximum(*_empty_disks(grid, grid))
+        step = np.hypot(*(grid.point[grid.following] - grid.point).T)
+        wide = np.flatnonzero(step * np.maximum(tight, tight[grid.following]) > RESOLUTION)
+        if not len(wide):
+            return _nodes(curve, np.union1d(grid.t, _curvature_peaks(grid)))
+        if len(grid.t) + len(wide) > MOST_NODES:
+            break
+        grid = _nodes(curve, np.sort(np.concatenate([grid.t, grid.middles(wide)])))
+    raise _touches_itself(grid.point[int(np.argmax(tight))])
+
+
+def _first_nodes(curve: SmoothCurve) -> FloatArray:
+    c = len(curve.loops)
+    counts = [max(NODES_PER_LOOP, NODES_PER_PIECE * loop.pieces) for loop in curve.loops]
+    return np.concatenate([(i + np.arange(k) / k) / c for i, k in enumerate(counts)])
+
+
+def _curvature_peaks(grid: _Nodes) -> FloatArray:
+    """Return t of the local extrema of the curvature: there the axis ends, and turns back on itself."""
+    before = np.empty_like(grid.following)
+    before[grid.following] = np.arange(len(before))
+    rows, signs = [], []
+    for sign in (1.0, -1.0):
+        k = sign * grid.curvature
+        top = np.flatnonzero((k >= k[before]) & (k > k[grid.following]))
+        rows.append(top)
+        signs.append(np.full(len(top), sign))
+    j, sign_of = np.concatenate(rows), np.concatenate(signs)
+    steps = grid.steps()
+    low, high = -steps[before[j]], steps[j]
+    for _ in range(TERNARY_ROUNDS):
+        third = (high - low) / 3
+        k = [sign_of * grid.curve.curvature(grid.near(j, x)) for x in (low + third, high - third)]
+        rising = k[0] < k[1]
+        low, high = np.where(rising, low + third, low), np.where(rising, high, high - third)
+    return grid.near(j, (low + high) / 2)
+
+
+def _traced(curve: SmoothCurve, grid: _Nodes, gap: float) -> tuple[_Nodes, FloatArray]:
+    """Return nodes and the curvatures (2, k) of their disks, whose centers are at most gap radii apart."""
+    nodes, disks = grid, _empty_disks(grid, grid)
+    for _ in range(MOST_ROUNDS):
+        wide = np.flatnonzero(_far_apart(nodes, disks[0], 1, gap) | _far_apart(nodes, disks[1], -1, gap))
+        if not len(wide):
+            return nodes, disks
+        if len(nodes.t) + len(wide) > MOST_NODES:
+            break
+        t = nodes.middles(wide)
+        order = np.argsort(np.concatenate([nodes.t, t]))
+        disks = np.concatenate([disks, _empty_disks(_nodes(curve, t), grid)], axis=1)[:, order]
+        nodes = _nodes(curve, np.concatenate([nodes.t, t])[order])
+    raise _touches_itself(nodes.point[int(np.argmax(disks.max(axis=0)))])
+
+
+def _far_apart(nodes: _Nodes, disks: FloatArray, side: int, gap: float) -> npt.NDArray[np.bool_]:
+    """Return whether the axis between a node's center and the following one's needs another vertex."""
+    center, radius = _centers(nodes, disks, side)
+    step = np.hypot(*(center[nodes.following] - center).T)
+    least = np.minimum(radius, radius[nodes.following])
+    one = np.isfinite(radius) ^ np.isfinite(radius[nodes.following])
+    both = np.isfinite(radius + radius[nodes.following])
+    # A disk beyond half the extent matters to no point, so where the axis runs off its end may stay rough.
+    return np.asarray((both & (step > gap * least)) | (one & (least < 0.6 * nodes.extent())))
+
+
+def _centers(nodes: _Nodes, disks: FloatArray, side: int) -> tuple[FloatArray, FloatArray]:
+    """Return the centers on one side and their radii, infinite where a disk is too large to matter."""
+    matters = disks * nodes.extent() > 1
+    radius = np.where(matters, 1 / np.where(matters, disks, 1.0), np.inf)
+    reach = np.where(matters, side * radius, 0.0)
+    return nodes.point + reach[:, None] * nodes.normal, radius
+
+
+def _linked(traced: tuple[_Nodes, FloatArray], rtol: float) -> CurveMedialAxis:
+    """Return the axis with one vertex for each disk, linked along the curve."""
+    nodes, disks = traced
+    vertices, radii, segments, count = [], [], [], 0
+    for side, curvature in zip((1, -1), disks, strict=True):
+        center, radius = _centers(nodes, curvature, side)
+        kept = np.isfinite(radius)
+        row = count + np.cumsum(kept) - 1
+        linked = kept & kept[nodes.following]
+        segments.append(np.stack([row[linked], row[nodes.following[linked]]], -1))
+        vertices.append(center[kept])
+        radii.append(radius[kept])
+        count += int(kept.sum())
+    joined = np.concatenate(vertices), np.concatenate(radii), np.concatenate(segments)
+    return CurveMedialAxis(*joined, error=rtol)
+
+
+def _empty_disks(nodes: _Nodes, grid: _Nodes) -> FloatArray:
+    """Return the curvature of the largest empty disk at each node, on its left and on its right, shape (2, k)."""
+    # Where the curvature jumps, the osculating disks of both sides count.
+    every = np.arange(len(nodes.t))
+    beside = [nodes.curve.curvature(nodes.near(every, np.full(len(every), e))) for e in (-1e-10, 1e-10)]
+    either = np.stack([nodes.curvature, *beside])
+    out = np.stack([either.max(axis=0), -either.min(axis=0)])
+    rows = max(1, BLOCK // len(grid.t))
+    for start in range(0, len(nodes.t), rows):
+        block = slice(start, start + rows)
+        g = _touching(nodes, grid.point[None], block)
+        for side, sign in enumerate((1.0, -1.0)):
+            best = _best_contacts(nodes, grid, sign * g, sign, block)
+            out[side, block] = np.maximum(out[side, block], best)
+    return out
+
+
+def _touching(nodes: _Nodes, x: FloatArray, rows: slice) -> FloatArray:
+    """Return the signed curvature of the circle that touches the curve at a node and passes through x (r, k, 2)."""
+    d = x - nodes.point[rows, None]
+    square = d[..., 0] ** 2 + d[..., 1] ** 2
+    normal, curvature = nodes.normal[rows, None], nodes.curvature[rows, None]
+    extent = nodes.extent()
+    # Nearer to the node than this, rounding spoils the fraction; its limit is the curvature.
+    near = square < 4e-9 * extent / np.maximum(np.abs(curvature), 1 / extent)
+    height = normal[..., 0] * d[..., 0] + normal[..., 1] * d[..., 1]
+    return np.where(near, curvature, 2 * height / np.where(near, 1.0, square))
+
+
+def _best_contacts(nodes: _Nodes, grid: _Nodes, g: FloatArray, sign: float, rows: slice) -> FloatArray:
+    """Return the largest value of sign times the touching curvature, from its values g at the grid."""
+    before = np.empty_like(grid.following)
+    before[grid.following] = np.arange(len(before))
+    peaks = np.where((g >= g[:, before]) & (g >= g[:, grid.following]), g, -np.inf)
+    best = np.full(len(g), -np.inf)
+    every = np.arange(len(g))
+    # The two highest peaks between grid nodes: which one is higher may be decided only there.
+    for _ in range(2):
+        j = np.argmax(peaks, axis=1)
+        best = np.maximum(best, _polished(nodes, grid, j, before[j], sign, rows))
+        peaks[every, j] = -np.inf
+    return best
+
+
+def _polished(
+    nodes: _Nodes, grid: _Nodes, j: IntArray, before: IntArray, sign: float, rows: slice
+) -> FloatArray:
+    """Return the top of the peak at grid nodes j, by two parabolas through three points each."""
+    steps, offset = grid.steps(), np.zeros(len(j))
+    low, high = -steps[before], steps[j]
+    best = np.full(len(j), -np.inf)
+    for _ in range(2):
+        x = np.stack([offset + low, offset, offset + high], -1)
+        f = sign * _touching(nodes, grid.curve.point(grid.near(j, x)), rows)
+        best = np.maximum(best, f.max(axis=1))
+        offset = offset + np.clip(_parabola_top(low, high, f), low, high)
+        low, high = (low - high) / 32, (high - low) / 32
+    f = sign * _touching(nodes, grid.curve.point(grid.near(j, offset[:, None])), rows)
+    return np.maximum(best, f[:, 0])
+
+
+def _parabola_top(low: FloatArray, high: FloatArray, f: FloatArray) -> FloatArray:
+    """Return where the parabola through (low, f0), (0, f1), (high, f2) is highest; 0 if it is not."""
+    left, right = (f[:, 0] - f[:, 1]) / low, (f[:, 2] - f[:, 1]) / high
+    bend = (right - left) / (high - low)
+    down = bend < 0
+    top = (left * high - right * low) / (high - low)
+    return np.where(down, -top / np.where(down, 2 * bend, 1.0), 0.0)
+
+
+def _refuse_crossings(grid: _Nodes) -> None:
+    """Refuse a curve whose polygon of nodes crosses itself."""
+    a, b = grid.point, grid.point[grid.following]
+    every = np.arange(len(a))
+    rows = max(1, BLOCK // len(a))
+    for start in range(0, len(a), rows):
+        p, q = a[start : start + rows, None], b[start : start + rows, None]
+        across = (_side(p, q, a) > 0) != (_side(p, q, b) > 0)
+        across &= (_side(a, b, p) > 0) != (_side(a, b, q) > 0)
+        # A segment does not cross itself, the one that follows it or the one before it.
+        here = np.arange(start, start + len(p))
+        across &= (grid.following[here][:, None] != every) & (here[:, None] != grid.following)
+        across &= here[:, None] != every
+        if across.any():
+            raise _touches_itself(p[int(np.argmax(across.any(axis=1))), 0])
+
+
+def _side(p: FloatArray, q: FloatArray, x: FloatArray) -> FloatArray:
+    d, e = q - p, x - p
+    return np.asarray(d[..., 0] * e[..., 1] - d[..., 1] * e[..., 0])
+
+
+def _touches_itself(point: FloatArray) -> InputError:
+    return InputError(
+        f"the curve crosses or touches itself near ({point[0]:g}, {point[1]:g}): "
+        "a smooth curve has no crossings, so its local feature size is not defined there"
+    )
+
+
+def nearest_site(queries: FloatArray, sites: FloatArray) -> tuple[FloatArray, IntArray]:
+    """Return the distance from each of queries (k, 2) to the nearest of sites (n, 2), and that site's row.
+
+    Notes
+    -----
+    Exact up to rounding; of equally near sites, one. Sites are put into about √n boxes; only the boxes that may
+    hold the nearest site are searched, so the time is about k √n.
+    """
+    boxes = _boxes(sites)
+    low = np.array([sites[box].min(axis=0) for box in boxes])
+    high = np.array([sites[box].max(axis=0) for box in boxes])
+    distance, row = np.empty(len(queries)), np.empty(len(queries), dtype=np.int64)
+    step = max(1, BLOCK // len(boxes))
+    for start in range(0, len(queries), step):
+        part = slice(start, start + step)
+        distance[part], row[part] = _nearest_in_boxes(queries[part], sites, boxes, low, high)
+    return np.sqrt(distance), row
+
+
+def _boxes(sites: FloatArray) -> list[IntArray]:
+    """Return the rows of sites in boxes: strips by x, each cut by y."""
+    count = max(1, math.isqrt(len(sites)) // 2)
+    strips = np.array_split(np.argsort(sites[:, 0], kind="stable"), max(1, math.isqrt(count)))
+    cuts = -(-count // len(strips))
+    boxes = (
+        box
+        for strip in strips
+        for box in np.array_split(strip[np.argsort(sites[strip, 1], kind="stable")], cuts)
+    )
+    return [box for box in boxes if len(box)]
+
+
+def _nearest_in_boxes(
+    q: FloatArray, sites: FloatArray, boxes: list[IntArray], low: FloatArray, high: FloatArray
+) -> tuple[FloatArray, IntArray]:
+    """Return squared distances and rows, with the boxes that come too late skipped."""
+    x, y = q[:, 0, None], q[:, 1, None]
+    below = [np.maximum(np.maximum(low[:, c] - v, v - high[:, c]), 0) for c, v in ((0, x), (1, y))]
+    above = [np.maximum(v - low[:, c], high[:, c] - v) for c, v in ((0, x), (1, y))]
+    nearest = below[0] ** 2 + below[1] ** 2
+    best = (above[0] ** 2 + above[1] ** 2).min(axis=1)
+    best *= 1 + 1e-12
+    row = np.zeros(len(q), dtype=np.int64)
+    for j, box in enumerate(boxes):
+        k = np.flatnonzero(nearest[:, j] <= best)
+        if not len(k):
+            continue
+        square = (x[k] - sites[box, 0]) ** 2 + (y[k] - sites[box, 1]) ** 2
+        near = np.argmin(square, axis=1)
+        found = square[np.arange(len(k)), near]
+        better = found < best[k]
+        best[k[better]], row[k[better]] = found[better], box[near[better]]
+    return best, row
+
+
+def _distance_to_segments(p: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
+    d, e = b - a, p - a
+    square = d[:, 0] ** 2 + d[:, 1] ** 2
+    along = (d[:, 0] * e[:, 0] + d[:, 1] * e[:, 1]) / np.where(square > 0, square, 1.0)
+    foot = a + np.clip(along, 0.0, 1.0)[:, None] * d
+    return np.hypot(p[:, 0] - foot[:, 0], p[:, 1] - foot[:, 1])

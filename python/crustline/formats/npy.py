@@ -1,0 +1,141 @@
+"""NumPy's own files: NPY and NPZ are read, NPZ is written."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from crustline.errors import FormatError, InputError
+from crustline.formats.attributes import attributes_of, find_coordinates, find_pair, quote_all
+from crustline.points import Points
+
+if TYPE_CHECKING:
+    from crustline.curves import Curves
+
+Array = npt.NDArray[Any]
+_PREFIX = "columns/"
+_RESULT = ("indices", "offsets", "closed", "isolated")
+
+
+def read_npy(content: bytes, source: str, columns: Sequence[str | int] | None) -> Points:
+    """Return the points of one array of shape (n, 2), or (n, 3) with heights."""
+    return _from_table(_load(content, source), source, columns)
+
+
+def read_npz(content: bytes, source: str, columns: Sequence[str | int] | None) -> Points:
+    """Return the points of an archive: array points, or x and y, with z, crs and other columns."""
+    archive = _load(content, source)
+    arrays = {name: _member(archive, name, source) for name in archive.files}
+    crs = arrays.pop("crs", None)
+    names = arrays.pop("names", None)
+    if "points" in arrays and columns is None:
+        if set(_RESULT) <= arrays.keys():  # a result of ours: a ring of n points is no column
+            arrays = {name: array for name, array in arrays.items() if name not in _RESULT}
+        points = _with_columns(arrays, names, source)
+    else:
+        points = _from_arrays(arrays, source, columns)
+    points.crs = None if crs is None else str(crs)
+    return points
+
+
+def write_npz(curves: Curves, *, polygons: bool = False) -> bytes:
+    """Return the curves as an archive of arrays, with the points in the order of the input."""
+    attributes = attributes_of(curves)
+    arrays: dict[str, Any] = {"points": curves.coordinates}
+    arrays |= {name: getattr(curves, name) for name in _RESULT}
+    arrays |= {_PREFIX + name: values for name, values in attributes.columns.items()}
+    if attributes.z is not None:
+        arrays["z"] = attributes.z
+    if attributes.crs is not None:
+        arrays["crs"] = np.array(attributes.crs)
+    if isinstance(curves.points, Points):
+        arrays["names"] = np.array(curves.points.names)
+    stream = io.BytesIO()
+    np.savez(stream, **arrays)
+    return stream.getvalue()
+
+
+def _load(content: bytes, source: str) -> Any:
+    try:
+        return np.load(io.BytesIO(content), allow_pickle=False)
+    except (ValueError, OSError, EOFError, zipfile.BadZipFile) as error:
+        raise FormatError(f"{source} is no NumPy file of numbers: {_first_line(error)}") from None
+
+
+def _member(archive: Any, name: str, source: str) -> Array:
+    try:
+        return np.asarray(archive[name])
+    except (ValueError, OSError, EOFError, zipfile.BadZipFile) as error:
+        raise FormatError(
+            f"{source}, array {name!r} cannot be read: {_first_line(error)}"
+        ) from None
+
+
+def _first_line(error: Exception) -> str:
+    if "allow_pickle" in str(error):
+        return "it holds Python objects, which are not read: save numbers or text"
+    return f"{(str(error) or type(error).__name__).splitlines()[0]}: save it again"
+
+
+def _from_table(array: Any, source: str, columns: Sequence[str | int] | None) -> Points:
+    if not isinstance(array, np.ndarray):
+        raise FormatError(f"{source} is an NPZ archive, not an NPY file: choose the format npz")
+    if array.ndim != 2 or array.shape[1] < 2 or (columns is None and array.shape[1] > 3):
+        raise FormatError(
+            f"{source} has the shape {array.shape}, not (n, 2) or (n, 3): "
+            "choose columns by position"
+        )
+    names = [*"xyz", *(f"column{k}" for k in range(3, array.shape[1]))][: array.shape[1]]
+    return _from_arrays({name: array[:, k] for k, name in enumerate(names)}, source, columns)
+
+
+def _from_arrays(
+    arrays: dict[str, Array], source: str, columns: Sequence[str | int] | None
+) -> Points:
+    flat = {name: array for name, array in arrays.items() if array.ndim == 1}
+    names = [name.removeprefix(_PREFIX) for name in flat]
+    if columns is None and find_pair(names) is None:
+        raise FormatError(
+            f"{source} holds the arrays {quote_all(list(arrays))}: name the points x and y, "
+            "or points, or choose columns (--columns X,Y)"
+        )
+    positions = find_coordinates(names, columns, source)
+    chosen = [list(flat)[k] for k in positions]
+    first, second, *height = (flat[name] for name in chosen)
+    if len(first) != len(second):
+        raise FormatError(
+            f"{source}: {chosen[0]!r} has {len(first)} rows, {chosen[1]!r} {len(second)}"
+        )
+    pair = (names[positions[0]], names[positions[1]])
+    rest = {name: array for name, array in arrays.items() if name not in chosen}
+    return _points(
+        np.column_stack([first, second]), height[0] if height else None, rest, pair, source
+    )
+
+
+def _with_columns(arrays: dict[str, Array], names: Array | None, source: str) -> Points:
+    rest = {name: array for name, array in arrays.items() if name not in ("points", "z")}
+    pair = ("x", "y") if names is None or names.shape != (2,) else tuple(map(str, names))
+    table, z = arrays["points"], arrays.get("z")
+    if z is None and table.ndim == 2 and table.shape[1] == 3:
+        table, z = table[:, :2], table[:, 2]
+    return _points(table, z, rest, pair, source)
+
+
+def _points(
+    table: Array, z: Array | None, rest: dict[str, Array], names: Sequence[str], source: str
+) -> Points:
+    columns = {
+        name.removeprefix(_PREFIX): array
+        for name, array in rest.items()
+        if array.shape == table.shape[:1]
+    }
+    try:
+        return Points(table, z=z, columns=columns, names=names)
+    except InputError as error:
+        raise FormatError(f"{source}, {error}") from None

@@ -1,0 +1,256 @@
+"""Well-known text: the vertices of every geometry are read, curves are written one a line.
+
+The grammar is that of OGC Simple Features 1.2.1, section 7, without measures; SRID=n; is PostGIS's.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import chain
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from crustline.arrays import FloatArray, IntArray
+from crustline.errors import FormatError, InputError
+from crustline.formats.attributes import attributes_of, coordinates_with_height
+from crustline.formats.crs import epsg_code
+from crustline.formats.file import as_text
+from crustline.points import Points
+
+if TYPE_CHECKING:
+    from crustline.curves import Curves
+
+# How many parentheses lie around the positions of a geometry, besides the innermost.
+_DEPTHS = {
+    "POINT": 0,
+    "LINESTRING": 0,
+    "LINEARRING": 0,
+    "MULTIPOINT": 0,
+    "POLYGON": 1,
+    "TRIANGLE": 1,
+    "MULTILINESTRING": 1,
+    "MULTIPOLYGON": 2,
+}
+_TOKEN = re.compile(
+    r"\s*(?:(?P<srid>SRID\s*=\s*\d+\s*;)|(?P<word>[A-Z]+)|(?P<leaf>\(\s*[-+.\d][^()]*\))"
+    r"|(?P<mark>[(),;])|(?P<end>\Z))",
+    re.IGNORECASE,
+)
+_START = re.compile(
+    rb"\s*(SRID\s*=|POINT|LINESTRING|LINEARRING|MULTI|POLYGON|TRIANGLE|GEOMETRYCOLLECTION)",
+    re.IGNORECASE,
+)
+
+
+def looks_like_wkt(start: bytes) -> bool:
+    """Return whether the first bytes of a file are well-known text."""
+    return _START.match(start) is not None
+
+
+def read_wkt(content: bytes, source: str, columns: Sequence[str | int] | None) -> Points:
+    """Return the vertices of all geometries, without those that close a ring."""
+    if columns is not None:
+        raise InputError(f"{source} is WKT, which has no columns to choose: leave columns away")
+    parser = _Parser(as_text(content, source), source)
+    parser.parse()
+    coordinates = _as_array(parser.leaves, parser)
+    z = coordinates[:, 2] if coordinates.shape[1] == 3 else None
+    crs = None if parser.srid is None else f"EPSG:{parser.srid}"
+    try:
+        return Points(coordinates[:, :2], z=z, crs=crs)
+    except InputError as error:
+        raise FormatError(f"{source}, {error}") from None
+
+
+@dataclass(frozen=True)
+class _Leaf:
+    """The innermost text of a geometry: positions between two parentheses."""
+
+    text: str
+    start: int
+    closes: bool  # whether a last position that equals the first only closes the line
+
+    def positions(self) -> list[list[str]]:
+        positions = [position.split() for position in self.text.split(",")]
+        closed = self.closes and len(positions) > 3 and positions[0] == positions[-1]
+        return positions[:-1] if closed else positions
+
+
+class _Parser:
+    """Recursive descent over tokens, in which the positions of a line are one token."""
+
+    def __init__(self, text: str, source: str) -> None:
+        self.text = text
+        self.source = source
+        self.leaves: list[_Leaf] = []
+        self.srid: int | None = None
+        self.tokens = self._tokens()
+        self.kind, self.value, self.start = next(self.tokens)
+
+    def parse(self) -> None:
+        try:
+            while self.kind != "end":
+                self._reference()
+                self._geometry()
+                if self.value == ";":
+                    self._advance()
+        except RecursionError:
+            raise self.error("the geometries are nested too deep: flatten them") from None
+
+    def error(self, fault: str, start: int | None = None) -> FormatError:
+        line = self.text.count("\n", 0, self.start if start is None else start) + 1
+        return FormatError(f"{self.source}, line {line}: {fault}")
+
+    def _tokens(self) -> Iterator[tuple[str, str, int]]:
+        place = 0
+        while True:
+            match = _TOKEN.match(self.text, place)
+            if match is None:
+                self.start = place
+                rest = self.text[place : place + 40].split("\n")[0]
+                raise self.error(f"{rest!r} is no well-known text: correct it")
+            kind = str(match.lastgroup)
+            yield kind, match[kind], match.start(kind)
+            place = match.end()
+
+    def _advance(self) -> str:
+        value = self.value
+        self.kind, self.value, self.start = next(self.tokens)
+        return value
+
+    def _expect(self, mark: str) -> None:
+        if self.value != mark:
+            found = self.value[:40] or "the end"
+            raise self.error(f"{mark!r} is missing before {found!r}: complete the geometry")
+        self._advance()
+
+    def _reference(self) -> None:
+        if self.kind != "srid":
+            return
+        srid = int(re.sub(r"\D", "", self.value))
+        if self.srid not in (None, srid):
+            raise self.error(f"SRID {srid} follows SRID {self.srid}: use one CRS in a file")
+        self.srid = srid
+        self._advance()
+
+    def _geometry(self) -> None:
+        match = re.fullmatch(r"([A-Z]+?)(ZM|Z|M)?", self.value.upper())
+        base, heights = match.groups() if match else ("", None)
+        if base not in _DEPTHS and base != "GEOMETRYCOLLECTION":
+            known = ", ".join([*_DEPTHS, "GEOMETRYCOLLECTION"])
+            raise self.error(f"{self.value[:40]!r} is no geometry: use one of {known}")
+        self._advance()
+        if self.kind == "word" and self.value.upper() in ("Z", "M", "ZM"):
+            heights = self._advance().upper()
+        if heights in ("M", "ZM"):
+            raise self.error("measures (M) are not read: write the geometries without them")
+        if self.value.upper() == "EMPTY":
+            self._advance()
+        elif base == "GEOMETRYCOLLECTION":
+            self._list(self._geometry)
+        else:
+            self._body(base, _DEPTHS[base])
+
+    def _list(self, item: Callable[[], None]) -> None:
+        self._expect("(")
+        item()
+        while self.value == ",":
+            self._advance()
+            item()
+        self._expect(")")
+
+    def _body(self, base: str, depth: int) -> None:
+        if self.value.upper() == "EMPTY":
+            self._advance()
+        elif depth > 0:
+            self._list(lambda: self._body(base, depth - 1))
+        elif base == "MULTIPOINT" and self.kind != "leaf":
+            self._list(lambda: self._leaf(base))
+        else:
+            self._leaf(base)
+
+    def _leaf(self, base: str) -> None:
+        if self.kind != "leaf":
+            found = self.value[:40] or "the end"
+            raise self.error(f"coordinates are missing before {found!r}: write (x y, x y, ...)")
+        self.leaves.append(_Leaf(self.value[1:-1], self.start, "POINT" not in base))
+        self._advance()
+
+
+def _as_array(leaves: list[_Leaf], parser: _Parser) -> FloatArray:
+    positions = list(chain.from_iterable(leaf.positions() for leaf in leaves))
+    if not positions:
+        return np.empty((0, 2))
+    widths = set(map(len, positions))
+    if widths in ({2}, {3}):
+        try:
+            numbers = np.fromiter(map(_number, chain.from_iterable(positions)), np.float64)
+            return numbers.reshape(len(positions), -1)
+        except ValueError:
+            pass
+    raise _bad_position(leaves, parser, len(positions[0]))
+
+
+def _bad_position(leaves: list[_Leaf], parser: _Parser, width: int) -> FormatError:
+    for leaf in leaves:
+        for position in leaf.positions():
+            fault = _fault_of_position(position, width)
+            if fault:
+                # A line may hold many positions over many lines of text: count up to this one.
+                return parser.error(f"{' '.join(position)[:60]!r} {fault}", leaf.start)
+    return parser.error("the positions do not fit together: correct them")
+
+
+def _fault_of_position(position: list[str], width: int) -> str | None:
+    if len(position) not in (2, 3):
+        return "is not two or three numbers: correct it"
+    if len(position) != width:
+        return f"has {len(position)} numbers, others have {width}: give all a height or none"
+    try:
+        list(map(_number, position))
+    except ValueError:
+        return "is not made of finite numbers: correct it"
+    return None
+
+
+def _number(text: str) -> float:
+    value = float(text)
+    if value - value != 0 or "_" in text:
+        raise ValueError(text)
+    return value
+
+
+# Writing
+
+
+def write_wkt(curves: Curves, *, polygons: bool = False) -> bytes:
+    """Return the curves as text, a geometry a line, the isolated points as the last one."""
+    return "".join(f"{line}\n" for line in _lines(curves, polygons)).encode()
+
+
+def _lines(curves: Curves, polygons: bool) -> Iterator[str]:
+    attributes = attributes_of(curves)
+    code = epsg_code(attributes.crs)
+    reference = "" if code is None else f"SRID={code};"
+    dimension = "" if attributes.z is None else " Z"
+
+    def text(rows: IntArray, closed: bool) -> str:
+        numbers = coordinates_with_height(curves, rows).T.tolist()
+        positions = list(map(" ".join, zip(*(map(repr, each) for each in numbers), strict=True)))
+        return f"({', '.join(positions + positions[:1] * closed)})"
+
+    for polygon in curves.polygons() if polygons else []:
+        rings = [polygon.shell, *(hole[::-1] for hole in polygon.holes)]
+        body = ", ".join(text(ring, True) for ring in rings)
+        yield f"{reference}POLYGON{dimension} ({body})"
+    for curve in curves:
+        if not (polygons and curve.closed):
+            yield f"{reference}LINESTRING{dimension} {text(curve.indices, curve.closed)}"
+    if len(curves.isolated):
+        points = ", ".join(
+            text(curves.isolated[k : k + 1], False) for k in range(len(curves.isolated))
+        )
+        yield f"{reference}MULTIPOINT{dimension} ({points})"

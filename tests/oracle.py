@@ -1,0 +1,353 @@
+"""The definitions of the graphs by brute force in exact integers: what tests compare with.
+
+Nothing here is fast or clever. Every double is a rational, so a set of points is scaled to
+integers; a Voronoi vertex is the center of a triple's circle with no point inside, in homogeneous
+integers (X, Y, W), W > 0; and a pair p, q is judged by the interval of circles through both that
+hold no site.
+
+The circles through p and q have their centers at m + t * perp(q - p), m the midpoint. A site on
+the left of pq is inside the circle of t exactly when t > tau, one on the right exactly when t <
+tau, with tau = (p - v).(q - v) / (2 (q - p)x(v - p)). So the disks with no site inside have lo <=
+t <= hi. A fraction is a pair of integers (numerator, denominator >= 0); a denominator 0 is
+infinity.
+
+Every function takes the rows as a caller has them, duplicates and all, and returns a sorted list
+of pairs (i, j), i < j, of first rows. Hand it a `PointSet` to share the work between several
+graphs.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from fractions import Fraction
+from functools import cached_property
+from itertools import combinations
+from typing import Any
+
+Point = tuple[int, int]
+Site = tuple[int, int, int]
+Ratio = tuple[int, int]
+Span = tuple[Ratio, Ratio]
+Edges = list[tuple[int, int]]
+
+NO_BOUND_BELOW: Ratio = (-1, 0)
+NO_BOUND_ABOVE: Ratio = (1, 0)
+
+
+class PointSet:
+    """Distinct points in integers: (x, y) = (input - origin) * scale, the first of equal rows
+    kept."""
+
+    def __init__(self, points: Any) -> None:
+        exact = [(Fraction(float(x)), Fraction(float(y))) for x, y in points]
+        first: dict[tuple[Fraction, Fraction], int] = {}
+        for row, point in enumerate(exact):
+            first.setdefault(point, row)
+        self.rows = list(first.values())
+        self.origin = next(iter(first), (Fraction(0), Fraction(0)))
+        self.scale = _integer_scale(first, self.origin)
+        self.points: list[Point] = [self._to_integer(point) for point in first]
+
+    def _to_integer(self, point: tuple[Fraction, Fraction]) -> Point:
+        x, y = ((a - o) * self.scale for a, o in zip(point, self.origin, strict=True))
+        assert x.denominator == y.denominator == 1
+        return (x.numerator, y.numerator)
+
+    @cached_property
+    def sites(self) -> list[Site]:
+        """The points themselves, as homogeneous sites."""
+        return [(x, y, 1) for x, y in self.points]
+
+    @cached_property
+    def vertices(self) -> list[Site]:
+        """The Voronoi vertices: the centers of the circles of three points with no point inside."""
+        found: set[Site] = set()
+        for triple in combinations(self.points, 3):
+            center = circumcenter(*triple)
+            if center is not None and center not in found and self._is_empty(center, triple[0]):
+                found.add(center)
+        return sorted(found)
+
+    def _is_empty(self, center: Site, on_circle: Point) -> bool:
+        limit = _power(center, on_circle)
+        return all(_power(center, r) >= limit for r in self.points)
+
+    @cached_property
+    def spans(self) -> dict[tuple[int, int], Span]:
+        """The pairs that some disk touches with no point inside, each with its interval of t."""
+        pairs = combinations(range(len(self.points)), 2)
+        spans = {(i, j): span(self.points[i], self.points[j], self.sites) for i, j in pairs}
+        return {pair: found for pair, found in spans.items() if found is not None}
+
+    def edges(self, pairs: Iterable[tuple[int, int]]) -> Edges:
+        """Pairs of distinct points as sorted pairs of input rows."""
+        rows = self.rows
+        return sorted((min(rows[i], rows[j]), max(rows[i], rows[j])) for i, j in pairs)
+
+
+def _integer_scale(
+    points: Iterable[tuple[Fraction, Fraction]], origin: tuple[Fraction, Fraction]
+) -> Fraction:
+    differences = [a - o for point in points for a, o in zip(point, origin, strict=True)]
+    denominator = math.lcm(1, *(d.denominator for d in differences))
+    divisor = math.gcd(*((d * denominator).numerator for d in differences))
+    return Fraction(denominator, divisor or 1)
+
+
+def point_set(points: Any) -> PointSet:
+    """`points` as a `PointSet`, which it may be already."""
+    return points if isinstance(points, PointSet) else PointSet(points)
+
+
+def circumcenter(a: Point, b: Point, c: Point) -> Site | None:
+    """The center of the circle through three points, or None if they are collinear."""
+    bx, by, cx, cy = b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]
+    w = 2 * (bx * cy - by * cx)
+    if w == 0:
+        return None
+    bb, cc = bx * bx + by * by, cx * cx + cy * cy
+    x, y = cy * bb - by * cc + a[0] * w, bx * cc - cx * bb + a[1] * w
+    divisor = math.gcd(x, y, w) * (1 if w > 0 else -1)
+    return (x // divisor, y // divisor, w // divisor)
+
+
+def _power(center: Site, r: Point) -> int:
+    """The squared distance of r from the center, times W, less a constant of the center."""
+    x, y, w = center
+    return w * (r[0] * r[0] + r[1] * r[1]) - 2 * (x * r[0] + y * r[1])
+
+
+def span(p: Point, q: Point, sites: Iterable[Site]) -> Span | None:
+    """The interval of t whose disks hold no site inside, or None if there is no such disk."""
+    (px, py), (qx, qy) = p, q
+    dx, dy = qx - px, qy - py
+    (lo_n, lo_d), (hi_n, hi_d) = NO_BOUND_BELOW, NO_BOUND_ABOVE
+    for x, y, w in sites:
+        ax, ay = x - px * w, y - py * w
+        cross = dx * ay - dy * ax
+        dot = ax * (x - qx * w) + ay * (y - qy * w)
+        if cross > 0:
+            den = 2 * w * cross
+            if dot * hi_d < hi_n * den:
+                hi_n, hi_d = dot, den
+        elif cross < 0:
+            den = -2 * w * cross
+            if -dot * lo_d > lo_n * den:
+                lo_n, lo_d = -dot, den
+        elif dot < 0:  # strictly between p and q: inside every disk
+            return None
+    return ((lo_n, lo_d), (hi_n, hi_d)) if lo_n * hi_d <= hi_n * lo_d else None
+
+
+def center_at(p: Point, q: Point, t: Ratio) -> Site:
+    """The center of the circle of t through p and q."""
+    (px, py), (qx, qy), (n, d) = p, q, t
+    return ((px + qx) * d - 2 * n * (qy - py), (py + qy) * d + 2 * n * (qx - px), 2 * d)
+
+
+def voronoi_vertices(points: Any) -> list[tuple[Fraction, Fraction]]:
+    """The Voronoi vertices in the coordinates of the input, sorted."""
+    s = point_set(points)
+    return sorted(
+        (Fraction(x, w) / s.scale + s.origin[0], Fraction(y, w) / s.scale + s.origin[1])
+        for x, y, w in s.vertices
+    )
+
+
+def delaunay_graph(points: Any) -> Edges:
+    """Some disk touches both and holds no point: all diagonals of cocircular points, too."""
+    s = point_set(points)
+    return s.edges(s.spans)
+
+
+def every_delaunay_triangulation(points: Any) -> Edges:
+    """The edges that no tie can move: two different disks touch the pair and hold no point."""
+    s = point_set(points)
+    return s.edges(pair for pair, (lo, hi) in s.spans.items() if lo != hi)
+
+
+def crust(points: Any) -> Edges:
+    """Some disk touches both and holds no point and no Voronoi vertex inside."""
+    s = point_set(points)
+    sites = s.sites + s.vertices
+    return s.edges((i, j) for i, j in s.spans if span(s.points[i], s.points[j], sites))
+
+
+def a_shape(points: Any, extra: Any) -> Edges:
+    """Some disk touches both and holds no point and no extra point inside."""
+    rows = [tuple(row) for row in points]
+    together = PointSet(rows + [tuple(row) for row in extra])
+    own = [k for k, row in enumerate(together.rows) if row < len(rows)]
+    pairs = combinations(own, 2)
+    return together.edges(pair for pair in pairs if pair in together.spans)
+
+
+def one_step_crust(points: Any) -> Edges:
+    """Some disk touches both and holds no point inside, nor either end of the dual Voronoi edge."""
+    s = point_set(points)
+
+    def is_kept(i: int, j: int, ends: Span) -> bool:
+        p, q = s.points[i], s.points[j]
+        return span(p, q, s.sites + [center_at(p, q, t) for t in ends if t[1]]) is not None
+
+    return s.edges((i, j) for (i, j), ends in s.spans.items() if is_kept(i, j, ends))
+
+
+def crossing_angle(points: Any, cot: Fraction) -> Edges:
+    """The dual Voronoi edge is seen from the points under at least arccot(cot), in (0, pi)."""
+    s = point_set(points)
+
+    def sees(lo: Ratio, hi: Ratio) -> bool:
+        if lo[1] == hi[1] == 0:  # a whole line: the straight angle
+            return True
+        # The directions to the two ends, the edge along the first axis and its length 2.
+        (ux, uy), (vx, vy) = (lo[1], 2 * lo[0]), (hi[1], 2 * hi[0])
+        return ux * vy > uy * vx and ux * vx + uy * vy <= cot * (ux * vy - uy * vx)
+
+    return s.edges(pair for pair, ends in s.spans.items() if sees(*ends))
+
+
+def rcgh(points: Any) -> Edges:
+    """The dual Voronoi edge is at least as long as the edge."""
+    s = point_set(points)
+
+    def is_long(lo: Ratio, hi: Ratio) -> bool:
+        return lo[1] == 0 or hi[1] == 0 or hi[0] * lo[1] - lo[0] * hi[1] >= lo[1] * hi[1]
+
+    return s.edges(pair for pair, ends in s.spans.items() if is_long(*ends))
+
+
+def alpha_shape(points: Any, radius: float) -> Edges:
+    """Some disk of exactly this radius touches both and holds no point inside."""
+    s = point_set(points)
+    squared = (Fraction(radius) * s.scale) ** 2
+
+    def touches(i: int, j: int, lo: Ratio, hi: Ratio) -> bool:
+        t_squared = squared / _squared_length(s, i, j) - Fraction(1, 4)
+        if t_squared < 0:
+            return False
+        return any(
+            _compare_root(sign, t_squared, lo) >= 0 >= _compare_root(sign, t_squared, hi)
+            for sign in (-1, 1)
+        )
+
+    return s.edges((i, j) for (i, j), (lo, hi) in s.spans.items() if touches(i, j, lo, hi))
+
+
+def _compare_root(sign: int, square: Fraction, bound: Ratio) -> int:
+    """The sign of sign * sqrt(square) - bound."""
+    n, d = bound
+    if d == 0:
+        return -n
+    left, right = sign * square, Fraction(n, d) * abs(Fraction(n, d))
+    return (left > right) - (left < right)
+
+
+def _squared_length(s: PointSet, i: int, j: int) -> int:
+    (px, py), (qx, qy) = s.points[i], s.points[j]
+    return (qx - px) ** 2 + (qy - py) ** 2
+
+
+def _pairs_free_of(points: Any, is_forbidden: Callable[[Point, Point, Point], bool]) -> Edges:
+    """All pairs whose forbidden region holds none of the other points."""
+    s = point_set(points)
+    return s.edges(
+        (i, j)
+        for i, j in combinations(range(len(s.points)), 2)
+        if not any(
+            is_forbidden(s.points[i], s.points[j], r)
+            for k, r in enumerate(s.points)
+            if k not in (i, j)
+        )
+    )
+
+
+def _dot(o: Point, a: Point, b: Point) -> int:
+    return (a[0] - o[0]) * (b[0] - o[0]) + (a[1] - o[1]) * (b[1] - o[1])
+
+
+def _cross(o: Point, a: Point, b: Point) -> int:
+    return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
+
+
+def beta_skeleton(points: Any, beta: float, kind: str = "circle") -> Edges:
+    """The forbidden region of both points holds no point.
+
+    Of kind "circle" and beta >= 1 it is the union of the two open disks of radius beta d / 2 that
+    touch both; for beta < 1 the intersection of those of radius d / (2 beta). Of kind "lune" and
+    beta >= 1 it is the intersection of the open disks of radius beta d / 2 about
+    p + (q - p) beta / 2 and q + (p - q) beta / 2.
+    """
+    b = Fraction(beta)
+    if b < 1:
+        return _pairs_free_of(points, lambda p, q, r: _in_lens(p, q, r, b))
+    if kind == "lune":
+        return _pairs_free_of(points, lambda p, q, r: _in_lune(p, q, r, b))
+    return _pairs_free_of(points, lambda p, q, r: _in_union(p, q, r, b))
+
+
+def _in_union(p: Point, q: Point, r: Point, beta: Fraction) -> bool:
+    """Whether 2 tau < sqrt(beta^2 - 1) on the side of r, where 2 tau = dot / |cross|."""
+    dot, cross, n, d = _dot(r, p, q), _cross(p, q, r), beta.numerator, beta.denominator
+    return dot < 0 or (n * n - d * d) * cross * cross > d * d * dot * dot
+
+
+def _in_lens(p: Point, q: Point, r: Point, beta: Fraction) -> bool:
+    """Whether 2 tau < -sqrt(1 / beta^2 - 1) on the side of r."""
+    dot, cross, n, d = _dot(r, p, q), _cross(p, q, r), beta.numerator, beta.denominator
+    return dot < 0 and n * n * dot * dot > (d * d - n * n) * cross * cross
+
+
+def _in_lune(p: Point, q: Point, r: Point, beta: Fraction) -> bool:
+    n, d = beta.numerator, beta.denominator
+    return d * _dot(p, r, r) < n * _dot(p, r, q) and d * _dot(q, r, r) < n * _dot(q, r, p)
+
+
+def gabriel(points: Any) -> Edges:
+    """The disk on pq as a diameter holds no point inside."""
+    return _pairs_free_of(points, lambda p, q, r: _dot(r, p, q) < 0)
+
+
+def relative_neighborhood(points: Any) -> Edges:
+    """No point is nearer to both p and q than they are to each other."""
+    return _pairs_free_of(points, lambda p, q, r: max(_dot(p, r, r), _dot(q, r, r)) < _dot(p, q, q))
+
+
+def nn_crust(points: Any) -> Edges:
+    """Every nearest neighbor q of p, and the shortest edges from p at 90 degrees or more to pq."""
+    s = point_set(points)
+    neighbors: list[list[int]] = [[] for _ in s.points]
+    for i, j in s.spans:
+        neighbors[i].append(j)
+        neighbors[j].append(i)
+    pairs: set[tuple[int, int]] = set()
+    for i, p in enumerate(s.points):
+        for j in _nearest(s, i, [k for k in range(len(s.points)) if k != i]):
+            behind = [k for k in neighbors[i] if _dot(p, s.points[j], s.points[k]) <= 0]
+            pairs.update((min(i, k), max(i, k)) for k in [j, *_nearest(s, i, behind)])
+    return s.edges(pairs)
+
+
+def _nearest(s: PointSet, i: int, among: Sequence[int]) -> list[int]:
+    """All those at the least distance from point i."""
+    least = min((_squared_length(s, i, k) for k in among), default=0)
+    return [k for k in among if _squared_length(s, i, k) == least]
+
+
+def minimum_spanning_tree(points: Any) -> Edges:
+    """Prim's tree, ties broken by the coordinates of the smaller end, then of the other."""
+    s = point_set(points)
+
+    def key(pair: tuple[int, int]) -> tuple[int, Point, Point]:
+        a, b = sorted(s.points[k] for k in pair)
+        return _squared_length(s, *pair), a, b
+
+    inside, outside = set(range(len(s.points))[:1]), set(range(1, len(s.points)))
+    pairs = []
+    while outside:
+        pair = min(((i, j) for i in inside for j in outside), key=key)
+        pairs.append(pair)
+        inside.add(pair[1])
+        outside.remove(pair[1])
+    return s.edges(pairs)

@@ -1,0 +1,253 @@
+"""Methods equal their definitions in exact arithmetic, at ties, near-ties, offsets and scales."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from typing import Any
+
+import crustline as cl
+import generators as make
+import numpy as np
+import oracle
+import pytest
+from generators import Rows
+from numpy.typing import NDArray
+
+Edges = NDArray[np.int64]
+Method = Callable[[Rows], Edges]
+Definition = Callable[[Any], list[tuple[int, int]]]
+
+PARAMETER_FREE: dict[str, tuple[Method, Definition]] = {
+    name: (getattr(cl, name), getattr(oracle, name))
+    for name in (
+        "gabriel",
+        "relative_neighborhood",
+        "one_step_crust",
+        "rcgh",
+        "nn_crust",
+        "minimum_spanning_tree",
+    )
+}
+BETAS = (0.5, 0.9, 1.0, 1.2, 1.7, 2.0, 3.0)
+
+
+def assert_is(edges: Edges, expected: list[tuple[int, int]], points: Rows) -> None:
+    """Fail, showing the points in full, unless the edges are the expected ones in order."""
+    assert edges.dtype == np.int64
+    assert edges.ndim == 2
+    assert edges.shape[1] == 2
+    found = [tuple(edge) for edge in edges.tolist()]
+    assert found == expected, (
+        f"missing {sorted(set(expected) - set(found))}, wrong {sorted(set(found) - set(expected))} "
+        f"(and sorted: {found == sorted(set(found))}) for points = {points.tolist()!r}"
+    )
+
+
+def sets(generator: make.Generator, count: int, seed: int) -> Iterator[Rows]:
+    """`count` sets of one family."""
+    rng = np.random.default_rng(seed)
+    return (generator(rng) for _ in range(count))
+
+
+# The crust, on everything.
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_crust_of_small_integer_grids(seed: int) -> None:
+    for points in sets(make.grid, 220, seed):
+        assert_is(cl.crust(points), oracle.crust(points), points)
+
+
+@pytest.mark.parametrize("family", make.DEGENERATE)
+def test_crust_of_degenerate_families(family: str) -> None:
+    for points in sets(make.DEGENERATE[family], 60, seed=20):
+        assert_is(cl.crust(points), oracle.crust(points), points)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_crust_a_few_ulps_from_degenerate(seed: int) -> None:
+    rng = np.random.default_rng(100 + seed)
+    for points in sets(make.degenerate, 100, seed):
+        moved = make.few_ulps_off(rng, points)
+        assert_is(cl.crust(moved), oracle.crust(moved), moved)
+
+
+@pytest.mark.parametrize("offset", [1e7, -1e7, 6_378_137.0, 2.0**40])
+def test_crust_far_from_the_origin(offset: float) -> None:
+    # Eighths move exactly; what does not is a few ulps (of the offset) off, and just as binding.
+    for points in sets(make.degenerate, 80, seed=30):
+        for moved in (points / 8 + offset, points / 7 + (offset, -offset / 3)):
+            assert_is(cl.crust(moved), oracle.crust(moved), moved)
+
+
+@pytest.mark.parametrize("exponent", [-300, -150, -30, 30, 150, 300])
+def test_crust_at_every_scale(exponent: int) -> None:
+    rng = np.random.default_rng(7)
+    for points in sets(make.degenerate, 40, seed=40):
+        moved = np.ldexp(make.few_ulps_off(rng, points), exponent)
+        assert_is(cl.crust(moved), oracle.crust(moved), moved)
+
+
+def test_crust_of_noisy_curves() -> None:
+    for points in sets(make.noisy_curve, 40, seed=50):
+        assert_is(cl.crust(points), oracle.crust(points), points)
+
+
+def test_crust_of_noisy_curves_on_a_fine_grid() -> None:
+    for points in sets(make.noisy_curve, 40, seed=51):
+        rounded = np.round(points * 32)
+        assert_is(cl.crust(rounded), oracle.crust(rounded), rounded)
+
+
+def test_crust_of_general_position() -> None:
+    for points in sets(make.general_position, 200, seed=52):
+        assert_is(cl.crust(points), oracle.crust(points), points)
+
+
+# The beta-skeletons.
+
+
+@pytest.mark.parametrize("kind", ["circle", "lune"])
+@pytest.mark.parametrize("beta", BETAS)
+def test_beta_skeleton_of_small_integer_grids(beta: float, kind: str) -> None:
+    for points in sets(make.grid, 150, seed=60):
+        expected = oracle.beta_skeleton(points, beta, kind)
+        assert_is(cl.beta_skeleton(points, beta, kind=kind), expected, points)
+
+
+@pytest.mark.parametrize("kind", ["circle", "lune"])
+@pytest.mark.parametrize("beta", BETAS)
+def test_beta_skeleton_of_hard_sets(beta: float, kind: str) -> None:
+    rng = np.random.default_rng(8)
+    for points in sets(make.degenerate, 40, seed=61):
+        shifted = points / 8 + 1e7
+        for moved in (points, make.few_ulps_off(rng, points), shifted, np.ldexp(points, -300)):
+            expected = oracle.beta_skeleton(moved, beta, kind)
+            assert_is(cl.beta_skeleton(moved, beta, kind=kind), expected, moved)
+
+
+def test_beta_skeleton_at_the_very_angle_of_a_point() -> None:
+    # dot / |cross| of the apex (0, h) over (-1, 0)(1, 0) is (h^2 - 1) / 2h: for h = 2 it is 3/4,
+    # the bound of beta = 5/4.
+    points = np.array([(-1, 0), (1, 0), (0, 2)], np.float64)
+    for beta in (1.25, np.nextafter(1.25, 0), np.nextafter(1.25, 2)):
+        assert_is(cl.beta_skeleton(points, beta), oracle.beta_skeleton(points, beta), points)
+    assert [0, 1] in cl.beta_skeleton(points, 1.25).tolist()
+    assert [0, 1] not in cl.beta_skeleton(points, np.nextafter(1.25, 2)).tolist()
+
+
+# The other graphs.
+
+
+@pytest.mark.parametrize("name", PARAMETER_FREE)
+def test_graph_of_small_integer_grids(name: str) -> None:
+    method, definition = PARAMETER_FREE[name]
+    for points in sets(make.grid, 400, seed=70):
+        assert_is(method(points), definition(points), points)
+
+
+@pytest.mark.parametrize("name", PARAMETER_FREE)
+def test_graph_of_hard_sets(name: str) -> None:
+    method, definition = PARAMETER_FREE[name]
+    rng = np.random.default_rng(9)
+    for points in sets(make.degenerate, 60, seed=71):
+        for moved in (
+            points,
+            make.few_ulps_off(rng, points),
+            points / 8 + 1e7,
+            np.ldexp(points, 300),
+        ):
+            assert_is(method(moved), definition(moved), moved)
+
+
+@pytest.mark.parametrize("name", PARAMETER_FREE)
+def test_graph_of_noisy_curves(name: str) -> None:
+    method, definition = PARAMETER_FREE[name]
+    for points in sets(make.noisy_curve, 6, seed=72):
+        assert_is(method(points), definition(points), points)
+
+
+@pytest.mark.parametrize("radius", [0.5, 0.75, 1.0, 1.25, 2.5, 5.0, 1e3])
+def test_alpha_shape(radius: float) -> None:
+    for points in sets(make.degenerate, 60, seed=73):
+        assert_is(cl.alpha_shape(points, radius), oracle.alpha_shape(points, radius), points)
+
+
+def test_alpha_shape_at_the_very_radius_of_a_circle() -> None:
+    for points in sets(make.exactly_cocircular, 30, seed=74):
+        for radius in (5.0, np.nextafter(5.0, 0), np.nextafter(5.0, 9)):
+            assert_is(cl.alpha_shape(points, radius), oracle.alpha_shape(points, radius), points)
+
+
+def test_alpha_shape_at_every_scale() -> None:
+    for points in sets(make.degenerate, 30, seed=75):
+        for exponent in (-300, -30, 30, 300):
+            scaled, radius = np.ldexp(points, exponent), float(np.ldexp(1.25, exponent))
+            assert_is(cl.alpha_shape(scaled, radius), oracle.alpha_shape(scaled, radius), scaled)
+
+
+def test_a_shape_of_arbitrary_extra_points() -> None:
+    rng = np.random.default_rng(10)
+    for points in sets(make.degenerate, 200, seed=76):
+        extra = rng.integers(-8, 17, (rng.integers(0, 8), 2)) / 2
+        assert_is(cl.a_shape(points, extra), oracle.a_shape(points, extra), points)
+
+
+def test_a_shape_of_exact_voronoi_vertices_is_the_crust() -> None:
+    """Melkemi's remark: with the Voronoi vertices as extra points the shape is the crust."""
+    seen = 0
+    for points in sets(make.grid, 1500, seed=77):
+        vertices = oracle.voronoi_vertices(points)
+        extra = np.array([(float(x), float(y)) for x, y in vertices]).reshape(-1, 2)
+        if all(Fraction(float(a)) == a for vertex in vertices for a in vertex):
+            seen += 1
+            assert_is(cl.a_shape(points, extra), oracle.crust(points), points)
+    assert seen >= 100
+
+
+# What the triangulation says of itself.
+
+
+def test_delaunay_edges_lie_between_the_ties() -> None:
+    for points in sets(make.degenerate, 150, seed=80):
+        own = {tuple(edge) for edge in cl.Delaunay(points).edges.tolist()}
+        exact = oracle.PointSet(points)
+        assert set(oracle.every_delaunay_triangulation(exact)) <= own
+        assert own <= set(oracle.delaunay_graph(exact))
+
+
+# Order.
+
+
+def permuted(edges: list[tuple[int, int]], order: NDArray[np.int64]) -> list[tuple[int, int]]:
+    """Edges over rows k of the original as edges over the rows of points[order]."""
+    place = np.argsort(order)
+    return sorted(tuple(sorted((int(place[i]), int(place[j])))) for i, j in edges)
+
+
+ALL = {
+    "crust": cl.crust,
+    "beta_skeleton": cl.beta_skeleton,
+    "lune": lambda points: cl.beta_skeleton(points, 1.7, kind="lune"),
+    "below_one": lambda points: cl.beta_skeleton(points, 0.9),
+    "alpha_shape": lambda points: cl.alpha_shape(points, 2.5),
+    **{name: method for name, (method, _) in PARAMETER_FREE.items()},
+}
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_permuting_rows_permutes_the_answer(name: str) -> None:
+    rng = np.random.default_rng(11)
+    for points in sets(make.degenerate, 60, seed=90):
+        distinct = rng.permutation(np.unique(points, axis=0))
+        order = rng.permutation(len(distinct))
+        expected = permuted(ALL[name](distinct).tolist(), order)
+        assert_is(ALL[name](distinct[order]), expected, distinct)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_a_delaunay_serves_like_its_points(name: str) -> None:
+    for points in sets(make.degenerate, 20, seed=91):
+        expected = [tuple(edge) for edge in ALL[name](points).tolist()]
+        assert_is(ALL[name](cl.Delaunay(points)), expected, points)
