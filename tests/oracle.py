@@ -164,7 +164,7 @@ def delaunay_graph(points: Any) -> Edges:
 def every_delaunay_triangulation(points: Any) -> Edges:
     """The edges that no tie can move: two different disks touch the pair and hold no point."""
     s = point_set(points)
-    return s.edges(pair for pair, (lo, hi) in s.spans.items() if lo != hi)
+    return s.edges(pair for pair, (lo, hi) in s.spans.items() if lo[0] * hi[1] < hi[0] * lo[1])
 
 
 def crust(points: Any) -> Edges:

@@ -6,13 +6,14 @@ from collections.abc import Callable, Iterator
 from fractions import Fraction
 from typing import Any
 
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
 import crustline as cl
 import generators as make
-import numpy as np
 import oracle
-import pytest
 from generators import Rows
-from numpy.typing import NDArray
 
 Edges = NDArray[np.int64]
 Method = Callable[[Rows], Edges]
@@ -89,6 +90,33 @@ def test_crust_at_every_scale(exponent: int) -> None:
         assert_is(cl.crust(moved), oracle.crust(moved), moved)
 
 
+@pytest.mark.parametrize("exponent", [-1074, -1022, -600, 600, 1000, 1013])
+def test_crust_at_the_ends_of_the_double_range(exponent: int) -> None:
+    for points in sets(make.degenerate, 40, seed=41):
+        moved = np.ldexp(np.round(points * 8), exponent)
+        assert_is(cl.crust(moved), oracle.crust(moved), moved)
+
+
+@pytest.mark.parametrize("reach", [30, 400, 1000])
+def test_crust_of_mixed_magnitudes_is_exact_or_refused_by_name(reach: int) -> None:
+    rng = np.random.default_rng(12)
+    for points in sets(make.degenerate, 40, seed=42):
+        moved = np.ldexp(points, rng.integers(-reach, reach, points.shape))
+        try:
+            edges = cl.crust(moved)
+        except cl.InputError as refusal:
+            assert "row" in str(refusal)  # noqa: PT017
+        else:
+            assert_is(edges, oracle.crust(moved), moved)
+
+
+def test_crust_beside_the_smallest_double() -> None:
+    rng = np.random.default_rng(13)
+    for points in sets(make.degenerate, 60, seed=43):
+        moved = np.where(rng.random(points.shape) < 0.3, np.nextafter(points, np.inf), points)
+        assert_is(cl.crust(moved), oracle.crust(moved), moved)
+
+
 def test_crust_of_noisy_curves() -> None:
     for points in sets(make.noisy_curve, 40, seed=50):
         assert_is(cl.crust(points), oracle.crust(points), points)
@@ -103,6 +131,28 @@ def test_crust_of_noisy_curves_on_a_fine_grid() -> None:
 def test_crust_of_general_position() -> None:
     for points in sets(make.general_position, 200, seed=52):
         assert_is(cl.crust(points), oracle.crust(points), points)
+
+
+def two_pass_crust(points: Rows) -> list[tuple[int, int]]:
+    """The recipe of the paper in floating point: two Delaunay triangulations."""
+    spatial = pytest.importorskip("scipy.spatial", reason="the two-pass recipe needs scipy")
+    both = np.vstack((points, spatial.Voronoi(points).vertices))
+    triangles = spatial.Delaunay(both).simplices
+    edges = np.sort(np.vstack((triangles[:, :2], triangles[:, 1:], triangles[:, ::2])), axis=1)
+    own = np.unique(edges[edges[:, 1] < len(points)], axis=0)
+    return [(i, j) for i, j in own.tolist()]
+
+
+@pytest.mark.parametrize("waves", [0, 7])
+def test_crust_of_many_points_equals_the_two_pass_recipe(waves: int) -> None:
+    # In general position rounding decides nothing: uniform points, and a wavy curve with noise.
+    rng = np.random.default_rng(53 + waves)
+    points = rng.random((3000, 2))
+    if waves:
+        angle = 2 * np.pi * points[:, 0]
+        radius = 1 + 0.3 * np.sin(waves * angle) + 0.01 * points[:, 1]
+        points = radius[:, None] * np.column_stack((np.cos(angle), np.sin(angle)))
+    assert_is(cl.crust(points), two_pass_crust(points), points)
 
 
 # The beta-skeletons.

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
 import crustline as cl
 import generators as make
-import numpy as np
 import oracle
-import pytest
 from generators import Rows
-from numpy.typing import NDArray
 
 
 def example(folder: Path, name: str) -> Rows:

@@ -5,17 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from itertools import pairwise
 
-import crustline as cl
-import generators as make
 import numpy as np
 import pytest
-from generators import Rows
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+import crustline as cl
+import generators as make
+from generators import Rows
+
 Pairs = set[tuple[int, int]]
-Method = Callable[[Rows], NDArray[np.int64]]
+Method = Callable[..., NDArray[np.int64]]
 
 METHODS: dict[str, Method] = {
     "crust": cl.crust,
@@ -184,6 +185,13 @@ def test_permuting_rows_permutes_the_answer(name: str, points: Rows, seed: int) 
     back = METHODS[name](distinct[order])
     expected = np.sort(order[back.reshape(-1, 2)], axis=1)
     assert pairs(expected) == pairs(METHODS[name](distinct))
+
+
+@pytest.mark.parametrize("method", [cl.crust, cl.one_step_crust])
+def test_the_number_of_threads_changes_nothing(method: Method) -> None:
+    points = np.random.default_rng(14).integers(0, 200, (20_000, 2)).astype(np.float64)
+    one, *others = (method(points, threads=threads).tolist() for threads in (1, 2, 5))
+    assert others == [one, one]
 
 
 EXACT_MAPS: dict[str, Callable[[Rows], Rows]] = {

@@ -2,8 +2,9 @@
 
 from functools import partial
 
-import crustline
 import numpy as np
+
+import crustline
 
 
 def delaunay(points: np.ndarray, *, threads: int) -> crustline.Delaunay:

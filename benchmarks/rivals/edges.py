@@ -5,7 +5,7 @@ import numpy as np
 
 def edges_of_triangles(triangles: np.ndarray) -> np.ndarray:
     sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    return distinct_edges(sides, int(sides.max(initial=-1)) + 1)
+    return distinct_edges(sides, int(sides.max(initial=0)) + 1)
 
 
 def distinct_edges(edges: np.ndarray, n: int) -> np.ndarray:

@@ -48,6 +48,8 @@ def as_points(points: npt.ArrayLike) -> FloatArray:
            [3., 4.]])
     """
     array = _as_array(points)
+    if array.ndim == 0:
+        raise InputError(_name_bad_row(points))
     if array.ndim == 1 and array.size == 0:
         array = np.empty((0, 2))
     _check_dtype(array, points)

@@ -168,7 +168,7 @@ def reconstruct(
     pair = None if columns is None else [name.strip() for name in columns.split(",")]
     points = read(source, columns=pair, format=input_format, crs=crs)
     with _progress(quiet) as progress:
-        options = {"threads": threads, "progress": progress}
+        options: dict[str, Any] = {"threads": threads, "progress": progress}
         delaunay = Delaunay(points, **options)
         edges = chosen(delaunay, **parameters, **_accepted(chosen, options))
     curves = trace(points, edges)

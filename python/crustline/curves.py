@@ -7,12 +7,16 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from os import PathLike
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 import numpy.typing as npt
+
 from crustline.delaunay import Delaunay
 from crustline.methods import crust
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 from crustline import _core
 from crustline.arrays import BoolArray, FloatArray, IntArray, as_edges, as_points
@@ -199,6 +203,12 @@ class Curves(Sequence[Curve]):
         from crustline.formats import write
 
         write(self, path, format=format, polygons=polygons)
+
+    def plot(self, ax: Axes | None = None, **options: Any) -> Axes:
+        """Draw the curves with matplotlib; see `crustline.plot.plot_curves`."""
+        from crustline.plot import plot_curves
+
+        return plot_curves(self, ax, **options)
 
     def _repr_svg_(self) -> str:
         """Return the picture that notebooks show."""

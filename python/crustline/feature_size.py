@@ -132,7 +132,9 @@ def local_feature_size(
         return axis.distance(curve_or_points.point(t)).reshape(t.shape)
     from crustline.medial import feature_size_of_samples
 
-    return cast(FloatArray, feature_size_of_samples(cast(Any, curve_or_points), cast(Any, t_or_edges)))
+    return cast(
+        FloatArray, feature_size_of_samples(cast(Any, curve_or_points), cast(Any, t_or_edges))
+    )
 
 
 @lru_cache(maxsize=128)
@@ -265,7 +267,9 @@ def _traced(curve: SmoothCurve, grid: _Nodes, gap: float) -> tuple[_Nodes, Float
     """Return nodes and the curvatures (2, k) of their disks, whose centers are at most gap radii apart."""
     nodes, disks = grid, _empty_disks(grid, grid)
     for _ in range(MOST_ROUNDS):
-        wide = np.flatnonzero(_far_apart(nodes, disks[0], 1, gap) | _far_apart(nodes, disks[1], -1, gap))
+        wide = np.flatnonzero(
+            _far_apart(nodes, disks[0], 1, gap) | _far_apart(nodes, disks[1], -1, gap)
+        )
         if not len(wide):
             return nodes, disks
         if len(nodes.t) + len(wide) > MOST_NODES:
@@ -317,7 +321,9 @@ def _empty_disks(nodes: _Nodes, grid: _Nodes) -> FloatArray:
     """Return the curvature of the largest empty disk at each node, on its left and on its right, shape (2, k)."""
     # Where the curvature jumps, the osculating disks of both sides count.
     every = np.arange(len(nodes.t))
-    beside = [nodes.curve.curvature(nodes.near(every, np.full(len(every), e))) for e in (-1e-10, 1e-10)]
+    beside = [
+        nodes.curve.curvature(nodes.near(every, np.full(len(every), e))) for e in (-1e-10, 1e-10)
+    ]
     either = np.stack([nodes.curvature, *beside])
     out = np.stack([either.max(axis=0), -either.min(axis=0)])
     rows = max(1, BLOCK // len(grid.t))
@@ -342,7 +348,9 @@ def _touching(nodes: _Nodes, x: FloatArray, rows: slice) -> FloatArray:
     return np.where(near, curvature, 2 * height / np.where(near, 1.0, square))
 
 
-def _best_contacts(nodes: _Nodes, grid: _Nodes, g: FloatArray, sign: float, rows: slice) -> FloatArray:
+def _best_contacts(
+    nodes: _Nodes, grid: _Nodes, g: FloatArray, sign: float, rows: slice
+) -> FloatArray:
     """Return the largest value of sign times the touching curvature, from its values g at the grid."""
     before = np.empty_like(grid.following)
     before[grid.following] = np.arange(len(before))

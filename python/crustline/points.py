@@ -28,7 +28,8 @@ class Points(np.ndarray[tuple[int, int], np.dtype[np.float64]]):
     z : array_like of float, shape (n,), optional
         Heights. Finite.
     columns : mapping of str to array_like, shape (n,), optional
-        The other columns by name, in the order of the input.
+        The other columns by name, in the order of the input: numbers, text (of dtype str, or
+        objects that are all str) or dates.
     crs : str, optional
         The coordinate reference system, such as "EPSG:4326".
     names : pair of str, default ("x", "y")
@@ -152,7 +153,8 @@ def _as_column(name: str, values: npt.ArrayLike, n: int) -> Column:
         raise InputError(
             f"column {name!r}: the shape is {column.shape}, not ({n},): pass one value a row"
         )
-    if column.dtype.kind not in "biufcSUmM":
+    text = column.dtype.kind == "O" and set(map(type, column.tolist())) <= {str}
+    if not text and column.dtype.kind not in "biufcSUmM":
         raise InputError(f"column {name!r} holds Python objects: convert it to numbers or text")
     return column
 

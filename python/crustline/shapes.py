@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -284,7 +284,9 @@ def trefoil(lobes: int = 3, depth: float = 0.3, radius: float = 1.0) -> SmoothCu
     return SmoothCurve((Loop(_polar(polar), pieces=lobes),))
 
 
-def blob(seed: int, *, harmonics: int = 5, roughness: float = 0.4, radius: float = 1.0) -> SmoothCurve:
+def blob(
+    seed: int, *, harmonics: int = 5, roughness: float = 0.4, radius: float = 1.0
+) -> SmoothCurve:
     """Return a random star-shaped blob, the same for the same seed.
 
     Parameters
@@ -534,7 +536,14 @@ def _cubics(svg: Any, segment: Any) -> list[list[list[float]]]:
     a, z = (np.array([float(p.x), float(p.y)]) for p in (segment.start, segment.end))
     if isinstance(segment, svg.QuadraticBezier):
         middle = np.array([float(segment.control.x), float(segment.control.y)])
-        return [[a.tolist(), ((a + 2 * middle) / 3).tolist(), ((z + 2 * middle) / 3).tolist(), z.tolist()]]
+        return [
+            [
+                a.tolist(),
+                ((a + 2 * middle) / 3).tolist(),
+                ((z + 2 * middle) / 3).tolist(),
+                z.tolist(),
+            ]
+        ]
     return [[a.tolist(), ((2 * a + z) / 3).tolist(), ((a + 2 * z) / 3).tolist(), z.tolist()]]
 
 
@@ -551,12 +560,16 @@ def _smoothed(control: FloatArray, tolerance: float, name: str) -> FloatArray:
     length = np.stack([np.hypot(*ahead.T), np.hypot(*behind.T)])
     if not np.all(length > 0):
         x, y = out[int(np.argmin(length.min(axis=0))), 0]
-        raise InputError(f"{name} has a handle of length zero at ({x:g}, {y:g}): give it a direction")
+        raise InputError(
+            f"{name} has a handle of length zero at ({x:g}, {y:g}): give it a direction"
+        )
     turn = np.abs(np.arctan2(_cross(behind, ahead), np.sum(behind * ahead, axis=1)))
     if np.any(turn > tolerance):
         row = int(np.argmax(turn))
         x, y = out[row, 0]
-        raise InputError(f"{name} has a corner of {math.degrees(turn[row]):.3g}° at ({x:g}, {y:g}): round it")
+        raise InputError(
+            f"{name} has a corner of {math.degrees(turn[row]):.3g}° at ({x:g}, {y:g}): round it"
+        )
     mean = _unit(_unit(ahead) + _unit(behind))
     out[:, 1] = out[:, 0] + length[0][:, None] * mean
     out[:, 2] = out[:, 3] - np.roll(length[1][:, None] * mean, -1, axis=0)
@@ -595,6 +608,73 @@ def lattice(n: int, m: int | None = None) -> FloatArray:
     """
     y, x = np.divmod(np.arange(n * (n if m is None else m)), max(n, 1))
     return np.stack([x, y], -1).astype(np.float64)
+
+
+def two_octagons() -> FloatArray:
+    """Return the 16 points of the paper's Figure 6: two regular octagons, side by side, shape (16, 2).
+
+    Each has the circumradius 1; the two sides that face each other are opposite sides of a square. Rows 0 to 7 are
+    the left octagon, counter-clockwise from the upper end of that side, rows 8 to 15 the right one, from the lower.
+
+    Notes
+    -----
+    The points 1-sample `two_octagons_separate()` and `two_octagons_joined()`, which join them differently: for
+    r ≥ 1 a polygonal reconstruction need not be unique (Observation 6).
+
+    References
+    ----------
+    .. [1] N. Amenta, M. Bern, D. Eppstein, "The Crust and the β-Skeleton: Combinatorial Curve
+       Reconstruction", Graphical Models and Image Processing 60 (1998), 125–135. Section 5, Figure 6.
+
+    Examples
+    --------
+    >>> p = two_octagons()
+    >>> (p[[0, 15]] - p[[7, 8]]).round(12).tolist()
+    [[0.0, 0.765366864731], [0.0, 0.765366864731]]
+    """
+    angle = (np.arange(8) + 0.5) * math.pi / 4
+    center = math.cos(math.pi / 8) + math.sin(math.pi / 8)
+    left = np.stack([np.cos(angle) - center, np.sin(angle)], -1)
+    return np.concatenate([left, -left])
+
+
+def two_octagons_separate() -> SmoothCurve:
+    """Return the curve of Figure 6 with two loops, one for each octagon of `two_octagons`."""
+    return _through_octagons(SEPARATE, joined=False)
+
+
+def two_octagons_joined() -> SmoothCurve:
+    """Return the curve of Figure 6 with one loop, through both octagons of `two_octagons`."""
+    return _through_octagons(JOINED, joined=True)
+
+
+# How the curves of Figure 6 leave the circles around the octagons: the directions at the facing corners and, beyond the circle's, at
+# their other neighbors (degrees), and the lengths of the handles across the square, behind it and before the circle.
+SEPARATE = (83.7, 15.2, 0.0, 0.25, 0.22, 0.43, 0.265)
+JOINED = (174.9, -11.6, 0.0, 0.31, 0.34, 0.21, 0.265)
+
+
+def _through_octagons(bends: tuple[float, ...], joined: bool) -> SmoothCurve:
+    """Return Bézier loops through the octagons: arcs of their circles, but for the pieces next to the square."""
+    facing, beside, beyond = (math.radians(angle) for angle in bends[:3])
+    across, behind, before, after = bends[3:]
+    direction = (np.arange(8) + 0.5) * math.pi / 4 + math.pi / 2
+    direction[[0, 7]] = facing, math.pi - facing
+    direction[[1, 2, 5, 6]] += beside, beyond, -beyond, -beside
+    handle = np.stack([np.cos(direction), np.sin(direction)], -1)
+    ahead, back = np.full((2, 8, 1), 4 / 3 * math.tan(math.pi / 16))
+    ahead[[7, 0, 6, 1, 5], 0] = across, behind, before, after, after
+    back[[0, 7, 1, 6, 2], 0] = across, behind, before, after, after
+    ahead, back = (np.concatenate([x * handle, -x * handle]) for x in (ahead, back))
+    loops = [np.arange(16)] if joined else [np.arange(8), np.arange(8, 16)]
+    points = two_octagons()
+    pieces = []
+    for i in loops:
+        j = np.roll(i, -1)
+        pieces.append(
+            np.stack([points[i], points[i] + ahead[i], points[j] - back[j], points[j]], 1)
+        )
+    return SmoothCurve(tuple(Loop(_bezier(control), len(control)) for control in pieces))
 
 
 def _positive(name: str, value: float) -> None:

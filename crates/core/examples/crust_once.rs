@@ -24,12 +24,16 @@ fn curves(count: usize, random: &mut Scatter) -> Vec<Point> {
     let mut phase = [0.0; 3];
     for k in 0..count {
         if k % 500 == 0 {
-            phase = [random.next(), random.next(), random.next()].map(|x| x * std::f64::consts::TAU);
+            phase =
+                [random.next(), random.next(), random.next()].map(|x| x * std::f64::consts::TAU);
         }
         let cell = (k / 500) as f64;
         let t = (k % 500) as f64 / 500.0 * std::f64::consts::TAU;
         let wave = |f: f64, p: f64| (f * t + p).sin();
-        let radius = 0.3 + 0.05 * wave(2.0, phase[0]) + 0.04 * wave(3.0, phase[1]) + 0.02 * wave(5.0, phase[2]);
+        let radius = 0.3
+            + 0.05 * wave(2.0, phase[0])
+            + 0.04 * wave(3.0, phase[1])
+            + 0.02 * wave(5.0, phase[2]);
         points.push([cell % side + radius * t.cos(), (cell / side).floor() + radius * t.sin()]);
     }
     for k in (1..points.len()).rev() {
@@ -61,7 +65,11 @@ fn main() {
     pool.install(|| {
         let start = Instant::now();
         let delaunay = Delaunay::new(&points, &Progress::default()).expect("finite points");
-        println!("delaunay {:.3} s, {} half-edges", start.elapsed().as_secs_f64(), delaunay.stars().half_edges());
+        println!(
+            "delaunay {:.3} s, {} half-edges",
+            start.elapsed().as_secs_f64(),
+            delaunay.stars().half_edges()
+        );
         let start = Instant::now();
         let edges = crust(&delaunay, &Progress::default()).expect("no one cancels");
         println!("crust {:.3} s, {} edges", start.elapsed().as_secs_f64(), edges.len());

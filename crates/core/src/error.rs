@@ -34,7 +34,10 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::TooManyPoints { count, limit } => {
-                write!(f, "{count} points are more than the {limit} that one triangulation can hold: split them into tiles")
+                write!(
+                    f,
+                    "{count} points are more than the {limit} that one triangulation can hold: split them into tiles"
+                )
             }
             Self::Range { row, value, largest } => write!(
                 f,

@@ -21,24 +21,66 @@ pub struct Pencil {
     chord: Point,
 }
 
-/// A triangle, counter-clockwise; it stands for its circumcenter, a Voronoi vertex.
-pub type Triangle = [Point; 3];
+/// A Voronoi vertex seen from the chord p q: the circumcenter v of a counter-clockwise triangle.
+#[derive(Debug, Clone, Copy)]
+pub struct Vertex {
+    triangle: [Point; 3],
+    /// (v−p)·(v−q): negative inside the smallest circle.
+    power: Estimate,
+    /// (q−p)×(v−p): positive to the left.
+    height: Estimate,
+}
+
+/// A value in floating point and a bound on its error.
+#[derive(Debug, Clone, Copy)]
+struct Estimate {
+    value: f64,
+    error: f64,
+}
+
+impl Estimate {
+    fn sign(self) -> Option<Ordering> {
+        (self.value.abs() > self.error).then(|| self.value.total_cmp(&0.0))
+    }
+
+    fn times(self, other: Self) -> Self {
+        let value = self.value * other.value;
+        let error = self.value.abs() * other.error
+            + (other.value.abs() + other.error) * self.error
+            + 2.0 * ROUNDING * value.abs();
+        Self { value, error }
+    }
+
+    fn minus(self, other: Self) -> Self {
+        let value = self.value - other.value;
+        Self { value, error: (self.error + other.error) * 1.000_001 + ROUNDING * value.abs() }
+    }
+
+    fn over(self, other: Self) -> Self {
+        let value = self.value / other.value;
+        let relative = other.error / other.value.abs();
+        if relative.is_nan() || relative >= 0.25 {
+            return Self { value, error: f64::INFINITY };
+        }
+        let error = 2.0 * (self.error / other.value.abs() + value.abs() * relative);
+        Self { value, error: error + 2.0 * ROUNDING * value.abs() }
+    }
+}
 
 /// A circle of a pencil: the smallest, or the one through a Voronoi vertex off the line p q.
 #[derive(Debug, Clone, Copy)]
 pub enum Circle {
     /// t = 0: the circle with diameter p q.
     Smallest,
-    /// t = τ of the circumcenter of a triangle.
-    Through(Triangle),
+    /// t = τ of a Voronoi vertex.
+    Through(Vertex),
 }
 
 /// A circle of a pencil in floating point, with bounds on its errors.
 #[derive(Debug, Clone, Copy)]
 pub struct Disk {
     circle: Circle,
-    parameter: f64,
-    parameter_error: f64,
+    parameter: Estimate,
     /// The center relative to p.
     pub center: Point,
     /// The radius.
@@ -54,114 +96,86 @@ impl Pencil {
         Self { p, q, chord: sub(q, p) }
     }
 
-    /// The disk inside `circle`.
+    /// The circumcenter of the counter-clockwise `triangle`, seen from this pencil.
     #[must_use]
-    pub fn disk(&self, circle: Circle) -> Disk {
-        let (parameter, parameter_error) = match circle {
-            Circle::Smallest => (0.0, 0.0),
-            Circle::Through(triangle) => self.parameter(triangle),
-        };
-        let [dx, dy] = self.chord;
-        let center = [dx / 2.0 - parameter * dy, dy / 2.0 + parameter * dx];
-        let radius = dot(center, center).sqrt();
-        let error = parameter_error * (dx.abs() + dy.abs()) + 8.0 * ROUNDING * radius;
-        Disk { circle, parameter, parameter_error, center, radius, error }
-    }
-
-    /// τ of the circumcenter of `triangle`, and a bound on the error.
-    fn parameter(&self, triangle: Triangle) -> (f64, f64) {
-        let place = self.place(triangle);
-        let height = 2.0 * place.height;
-        let value = place.power / height;
-        let relative = place.height_error / place.height.abs();
-        if !(relative < 0.25) {
-            return (value, f64::INFINITY);
-        }
-        let error = 2.0 * (place.power_error / height.abs() + value.abs() * relative);
-        (value, error + 4.0 * ROUNDING * value.abs())
-    }
-
-    fn place(&self, triangle: Triangle) -> Place {
+    pub fn vertex(&self, triangle: [Point; 3]) -> Vertex {
         let Center { at, error } = Center::estimate(triangle, self.p);
         let from_q = sub(at, self.chord);
         let reach = at[0].abs() + at[1].abs() + from_q[0].abs() + from_q[1].abs();
         let length = self.chord[0].abs() + self.chord[1].abs();
-        Place {
-            power: dot(at, from_q),
-            power_error: (error + 8.0 * ROUNDING * reach) * (reach + error),
-            height: cross(self.chord, at),
-            height_error: length * (error + 8.0 * ROUNDING * reach),
-        }
+        let error = error + 8.0 * ROUNDING * reach;
+        let power = Estimate { value: dot(at, from_q), error: error * (reach + error) };
+        let height = Estimate { value: cross(self.chord, at), error: length * error };
+        Vertex { triangle, power, height }
     }
 
-    /// Is the circumcenter of `triangle` strictly inside `disk`?
+    /// The disk inside `circle`.
     #[must_use]
-    pub fn holds(&self, disk: &Disk, triangle: Triangle) -> bool {
-        let place = self.place(triangle);
-        let t = 2.0 * disk.parameter;
-        let excess = place.power - t * place.height;
-        let error = place.power_error
-            + t.abs() * place.height_error
-            + 2.0 * disk.parameter_error * (place.height.abs() + place.height_error)
-            + 8.0 * ROUNDING * (place.power.abs() + (t * place.height).abs());
-        if excess.abs() > error {
-            return excess < 0.0;
-        }
-        match disk.circle {
-            Circle::Smallest => self.power(triangle) == Less,
-            Circle::Through(other) => self.is_inside(triangle, other),
-        }
+    pub fn disk(&self, circle: Circle) -> Disk {
+        let twice = match circle {
+            Circle::Smallest => Estimate { value: 0.0, error: 0.0 },
+            Circle::Through(vertex) => vertex.power.over(vertex.height),
+        };
+        let parameter = Estimate { value: twice.value / 2.0, error: twice.error / 2.0 };
+        let [dx, dy] = self.chord;
+        let center = [dx / 2.0 - parameter.value * dy, dy / 2.0 + parameter.value * dx];
+        let radius = dot(center, center).sqrt();
+        let error = parameter.error * (dx.abs() + dy.abs()) + 8.0 * ROUNDING * radius;
+        Disk { circle, parameter: twice, center, radius, error }
     }
 
-    /// The sign of (v−p)·(v−q) for the circumcenter v: `Less` inside the smallest circle.
+    /// Is `vertex` strictly inside `disk`?
     #[must_use]
-    pub fn power(&self, [a, b, c]: Triangle) -> Ordering {
-        sign::sign(&Power, self.p, &[self.q, a, b, c])
+    pub fn holds(&self, disk: &Disk, vertex: &Vertex) -> bool {
+        let excess = vertex.power.minus(disk.parameter.times(vertex.height));
+        excess.sign().unwrap_or_else(|| match disk.circle {
+            Circle::Smallest => self.power(vertex),
+            Circle::Through(other) => self.exact_excess(vertex, &other),
+        }) == Less
     }
 
-    /// The side of p → q that the circumcenter of `triangle` is on: `Greater` is left.
+    /// The sign of (v−p)·(v−q): `Less` inside the smallest circle.
     #[must_use]
-    pub fn side(&self, [a, b, c]: Triangle) -> Ordering {
-        sign::sign(&Side, self.p, &[self.q, a, b, c])
+    pub fn power(&self, vertex: &Vertex) -> Ordering {
+        let [a, b, c] = vertex.triangle;
+        let exact = || sign::exact_sign(&Power, self.p, &[self.q, a, b, c]);
+        vertex.power.sign().unwrap_or_else(exact)
     }
 
-    /// Is the circumcenter of `triangle` strictly inside the circle through that of `other`?
+    /// The side of p → q that `vertex` is on: `Greater` is left.
     #[must_use]
-    pub fn is_inside(&self, [a, b, c]: Triangle, other: Triangle) -> bool {
-        let [d, e, f] = other;
-        let sign = sign::sign(&Inside, self.p, &[self.q, a, b, c, d, e, f]);
-        match self.side(other) {
-            Greater => sign == Less,
-            Less => sign == Greater,
-            Equal => false,
-        }
+    pub fn side(&self, vertex: &Vertex) -> Ordering {
+        let [a, b, c] = vertex.triangle;
+        let exact = || sign::exact_sign(&Side, self.p, &[self.q, a, b, c]);
+        vertex.height.sign().unwrap_or_else(exact)
     }
 
-    /// Of the empty circles between `low` and `high`, the Voronoi vertices that bound them from the right and the left of
-    /// p → q, the smallest. `None` if there are none.
+    /// The smallest of the circles that have no Voronoi vertex `low` of the right side inside, nor one `high` of the left.
+    /// `None` if there is no such circle.
     #[must_use]
-    pub fn smallest_between(&self, low: Option<Triangle>, high: Option<Triangle>) -> Option<Circle> {
+    pub fn smallest_between(&self, low: Option<Vertex>, high: Option<Vertex>) -> Option<Circle> {
         if let (Some(low), Some(high)) = (low, high)
-            && self.is_inside(low, high)
+            && self.holds(&self.disk(Circle::Through(high)), &low)
         {
             return None;
         }
         match (low, high) {
-            (_, Some(high)) if self.power(high) == Less => Some(Circle::Through(high)),
-            (Some(low), _) if self.power(low) == Less => Some(Circle::Through(low)),
+            (_, Some(high)) if self.power(&high) == Less => Some(Circle::Through(high)),
+            (Some(low), _) if self.power(&low) == Less => Some(Circle::Through(low)),
             _ => Some(Circle::Smallest),
         }
     }
-}
 
-/// A circumcenter v seen from the chord p q, with error bounds.
-struct Place {
-    /// (v−p)·(v−q): negative inside the smallest circle.
-    power: f64,
-    power_error: f64,
-    /// (q−p)×(v−p): positive to the left.
-    height: f64,
-    height_error: f64,
+    /// `Less` if `vertex` is strictly inside the circle through `other`, which is off the line p q.
+    fn exact_excess(&self, vertex: &Vertex, other: &Vertex) -> Ordering {
+        let [d, e, f] = other.triangle;
+        if [[d, e, f], [e, f, d], [f, d, e]].contains(&vertex.triangle) {
+            return Equal;
+        }
+        let [a, b, c] = vertex.triangle;
+        let sign = sign::exact_sign(&Inside, self.p, &[self.q, a, b, c, d, e, f]);
+        if self.side(other) == Greater { sign } else { sign.reverse() }
+    }
 }
 
 /// The exact counterpart of [`Place`]: power times w², and height times w.

@@ -21,7 +21,10 @@ pub fn cross(a: Point, b: Point) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
-/// The lexicographic order by x, then y. Coordinates are finite, so it is total.
+/// The lexicographic order by x, then y.
+///
+/// # Panics
+/// If a coordinate is not a number; points are finite by the time they are here.
 #[must_use]
 pub fn lexicographic(a: &Point, b: &Point) -> std::cmp::Ordering {
     // 0.0 and -0.0 are one coordinate, so `total_cmp` would not do.

@@ -6,7 +6,7 @@
 //! underflows, so coordinates that small take the integers of [`sign`](crate::sign) instead.
 
 use crate::point::{Point, dot, sub};
-use crate::sign::{Form, Number, exact_sign};
+use crate::sign::{Form, Number, exact_sign, small_sign};
 use std::cmp::Ordering::{self, Greater};
 
 const EPSILON: f64 = f64::EPSILON / 2.0;
@@ -67,6 +67,10 @@ fn exact_orientation(a: Point, b: Point, c: Point) -> Ordering {
 
 #[cold]
 fn exact_in_circle(a: Point, b: Point, c: Point, d: Point) -> bool {
+    // Ties come in crowds, on lattices, where integers are quick.
+    if let Some(sign) = small_sign(&InCircle, d, &[a, b, c]) {
+        return sign == Greater;
+    }
     if [a, b, c, d].iter().flatten().all(is_moderate) {
         return robust::incircle(coord(a), coord(b), coord(c), coord(d)) > 0.0;
     }

@@ -3,7 +3,8 @@
 //! A geometric question is the sign of a [`Form`]: a polynomial in the differences of coordinates.
 //! [`sign`] evaluates it first in floating point with a running error bound, then, where the bound
 //! cannot tell, in integers: every double is an integer times a power of two, so the differences are
-//! integers in a common unit. Those fit in 128 bits on lattices and the like, else they are `BigInt`.
+//! integers in a common unit. On lattices and the like the value fits in 64 or 128 bits, where it costs
+//! little more than in floating point; else the integers are `BigInt`.
 
 use crate::point::{Point, sub};
 use num_bigint::BigInt;
@@ -55,19 +56,35 @@ pub fn sign<const N: usize, F: Form<N>>(form: &F, origin: Point, points: &[Point
 }
 
 /// The sign of `form` in integers.
+#[cold]
 pub fn exact_sign<const N: usize, F: Form<N>>(
     form: &F,
     origin: Point,
     points: &[Point; N],
 ) -> Ordering {
-    let unit = points.iter().chain([&origin]).flatten().filter_map(|&x| unit_exponent(x)).min();
-    let Some(unit) = unit else { return Ordering::Equal };
-    small_differences(origin, points, unit)
-        .filter(|at| form.bound(bit_length(at)) < 127)
-        .map_or_else(
-            || form.value(&big_differences(origin, points, unit)).cmp(&BigInt::ZERO),
-            |at| form.value(&at).cmp(&0),
-        )
+    small_sign(form, origin, points).unwrap_or_else(|| big_sign(form, origin, points))
+}
+
+/// The sign of `form` in integers, if its value fits in 128 bits.
+pub fn small_sign<const N: usize, F: Form<N>>(
+    form: &F,
+    origin: Point,
+    points: &[Point; N],
+) -> Option<Ordering> {
+    let (at, bits) = small_differences(origin, points)?;
+    match form.bound(bits) {
+        0..63 => Some(form.value(&at).cmp(&0)),
+        63..127 => Some(form.value(&at.map(|vector| vector.map(i128::from))).cmp(&0)),
+        _ => None,
+    }
+}
+
+/// The sign of `form` in integers of any size.
+fn big_sign<const N: usize, F: Form<N>>(form: &F, origin: Point, points: &[Point; N]) -> Ordering {
+    match common_unit(origin, points) {
+        None => Ordering::Equal,
+        Some(unit) => form.value(&big_differences(origin, points, unit)).cmp(&BigInt::ZERO),
+    }
 }
 
 /// The quotient of two forms, `numerator` one degree above `denominator`, rounded once or twice.
@@ -77,8 +94,7 @@ pub fn quotient<const N: usize>(
     origin: Point,
     points: &[Point; N],
 ) -> f64 {
-    let unit = points.iter().chain([&origin]).flatten().filter_map(|&x| unit_exponent(x)).min();
-    let Some(unit) = unit else { return f64::NAN };
+    let Some(unit) = common_unit(origin, points) else { return f64::NAN };
     let at = big_differences(origin, points, unit);
     let (n, d) = (numerator.value(&at), denominator.value(&at));
     let shift = d.bits() as i32 - n.bits() as i32 + 64;
@@ -139,6 +155,21 @@ impl Number for Approximate {
     }
 }
 
+impl Number for i64 {
+    fn integer(value: i64) -> Self {
+        value
+    }
+    fn plus(&self, other: &Self) -> Self {
+        self + other
+    }
+    fn minus(&self, other: &Self) -> Self {
+        self - other
+    }
+    fn times(&self, other: &Self) -> Self {
+        self * other
+    }
+}
+
 impl Number for i128 {
     fn integer(value: i64) -> Self {
         value.into()
@@ -184,34 +215,43 @@ pub fn decompose(x: f64) -> (i64, i32) {
     (if x < 0.0 { -odd } else { odd }, biased.max(1) - 1075 + zeros as i32)
 }
 
-/// The exponent of the lowest set bit of `x`, if `x` is not 0.
-fn unit_exponent(x: f64) -> Option<i32> {
-    let (mantissa, exponent) = decompose(x);
-    (mantissa != 0).then_some(exponent)
+/// The largest power of two that all coordinates are multiples of, as its exponent.
+fn common_unit<const N: usize>(origin: Point, points: &[Point; N]) -> Option<i32> {
+    let nonzero = |(mantissa, exponent): (i64, i32)| (mantissa != 0).then_some(exponent);
+    points.iter().chain([&origin]).flatten().filter_map(|&x| nonzero(decompose(x))).min()
 }
 
-/// The differences in units of two to the power `unit`, if all coordinates fit in 120 bits.
+/// The differences as integers in their common unit, and the bits of the largest.
+///
+/// `None` if a difference is not a double, or the largest has more than 62 bits.
 fn small_differences<const N: usize>(
     origin: Point,
     points: &[Point; N],
-    unit: i32,
-) -> Option<[[i128; 2]; N]> {
-    let integer = |x: f64| {
-        let (mantissa, exponent) = decompose(x);
-        let shift = if mantissa == 0 { 0 } else { exponent - unit };
-        (shift <= 60).then(|| i128::from(mantissa) << shift)
-    };
-    let origin = [integer(origin[0])?, integer(origin[1])?];
-    let mut at = [[0; 2]; N];
-    for (difference, point) in at.iter_mut().zip(points) {
-        *difference = [integer(point[0])? - origin[0], integer(point[1])? - origin[1]];
+) -> Option<([[i64; 2]; N], u32)> {
+    let differences = points.map(|point| sub(point, origin));
+    let (mut low, mut high) = (u64::MAX, 0);
+    for (difference, point) in differences.iter().zip(points) {
+        for axis in [0, 1] {
+            let (d, a, b) = (difference[axis], point[axis], origin[axis]);
+            // The rounding error of a − b, after Knuth.
+            let virtual_b = a - d;
+            if (a - (d + virtual_b)) + (virtual_b - b) != 0.0 {
+                return None;
+            }
+            if d != 0.0 {
+                let (exponent, fraction) = ((d.to_bits() >> 52) & 0x7ff, d.to_bits() | 1 << 52);
+                high = high.max(exponent);
+                low = low.min(exponent + u64::from(fraction.trailing_zeros()));
+            }
+        }
     }
-    Some(at)
-}
-
-/// The number of bits of the largest absolute difference.
-fn bit_length<const N: usize>(at: &[[i128; 2]; N]) -> u32 {
-    at.iter().flatten().map(|x| 128 - x.unsigned_abs().leading_zeros()).max().unwrap_or(0)
+    // The exponents are biased, and count from the mantissa's lowest bit: 52 below its leading one.
+    let bits = (high + 53).saturating_sub(low) as u32;
+    if bits > 62 || high > 1900 || (low < 200 && bits > 0) {
+        return None;
+    }
+    let unit = if bits == 0 { 1.0 } else { f64::from_bits((2 * 1023 + 52 - low) << 52) };
+    Some((differences.map(|d| d.map(|x| (x * unit) as i64)), bits))
 }
 
 /// The differences in units of two to the power `unit`, of any size.

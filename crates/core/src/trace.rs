@@ -31,7 +31,8 @@ pub struct Curves {
 pub fn trace(points: &[Point], edges: &Edges, progress: &Progress) -> Result<Curves> {
     progress.enter(Stage::Trace, edges.len())?;
     let graph = Incidence::new(points.len(), edges);
-    let mut walk = Walk { edges, graph: &graph, used: vec![false; edges.len()], curves: Curves::default() };
+    let mut walk =
+        Walk { edges, graph: &graph, used: vec![false; edges.len()], curves: Curves::default() };
     walk.curves.offsets.push(0);
     let rows = 0..points.len() as u32;
     for row in rows.clone().filter(|&row| !matches!(graph.degree(row), 0 | 2)) {
@@ -166,7 +167,8 @@ impl Curves {
     fn sorted(self) -> Self {
         let mut order: Vec<usize> = (0..self.closed.len()).collect();
         order.sort_unstable_by(|&a, &b| self.curve(a).cmp(self.curve(b)));
-        let mut sorted = Self { offsets: vec![0], isolated: self.isolated.clone(), ..Self::default() };
+        let mut sorted =
+            Self { offsets: vec![0], isolated: self.isolated.clone(), ..Self::default() };
         sorted.indices.reserve_exact(self.indices.len());
         for k in order {
             sorted.indices.extend_from_slice(self.curve(k));

@@ -27,7 +27,7 @@ impl Center {
         let numerators = [uu * v[1] - vv * u[1], vv * u[0] - uu * v[0]];
         let sizes = uu * (v[0].abs() + v[1].abs()) + vv * (u[0].abs() + u[1].abs());
         let flatness = 32.0 * ROUNDING * ((u[0] * v[1]).abs() + (u[1] * v[0]).abs()) / twice.abs();
-        if !(flatness < 0.25 && twice.abs() > 1e-200) {
+        if flatness.is_nan() || flatness >= 0.25 || twice.abs() <= 1e-200 {
             return Self { at: [0.0; 2], error: f64::INFINITY };
         }
         let offset = numerators.map(|x| x / twice);

@@ -8,7 +8,10 @@ use pyo3::prelude::*;
 /// The rows of an (n, 2) array, without a copy.
 ///
 /// `as_points` has made it C-contiguous and finite; the shape is checked here because the slice depends on it.
-pub fn rows<'a, T: Element>(py: Python<'_>, array: &'a PyReadonlyArray2<'_, T>) -> PyResult<&'a [[T; 2]]> {
+pub fn rows<'a, T: Element>(
+    py: Python<'_>,
+    array: &'a PyReadonlyArray2<'_, T>,
+) -> PyResult<&'a [[T; 2]]> {
     let slice = array.as_slice()?;
     match slice.as_chunks() {
         (rows, []) if array.as_array().ncols() == 2 => Ok(rows),
@@ -22,13 +25,19 @@ pub fn points<'a>(py: Python<'_>, array: &'a PyReadonlyArray2<'_, f64>) -> PyRes
 }
 
 /// A fresh read-only array of integers, `width` to a row.
-pub fn integer_rows<'py, const N: usize>(py: Python<'py>, rows: &[[u32; N]]) -> PyResult<Bound<'py, PyArray2<i64>>> {
+pub fn integer_rows<'py, const N: usize>(
+    py: Python<'py>,
+    rows: &[[u32; N]],
+) -> PyResult<Bound<'py, PyArray2<i64>>> {
     let array = PyArray2::zeros(py, [rows.len(), N], false);
     fill(&array, rows.as_flattened(), |&x| i64::from(x))
 }
 
 /// A fresh read-only array of integers.
-pub fn integers<'py>(py: Python<'py>, values: impl ExactSizeIterator<Item = i64>) -> Bound<'py, PyArray1<i64>> {
+pub fn integers<'py>(
+    py: Python<'py>,
+    values: impl ExactSizeIterator<Item = i64>,
+) -> Bound<'py, PyArray1<i64>> {
     let array = PyArray1::from_iter(py, values);
     array.readwrite().make_nonwriteable();
     array

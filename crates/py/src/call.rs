@@ -26,7 +26,11 @@ pub struct Call {
 
 impl Call {
     /// Run `work` and give its result, or the exception for its error.
-    pub fn run<T: Send>(self, py: Python<'_>, work: impl FnOnce(&Progress) -> Result<T> + Send) -> PyResult<T> {
+    pub fn run<T: Send>(
+        self,
+        py: Python<'_>,
+        work: impl FnOnce(&Progress) -> Result<T> + Send,
+    ) -> PyResult<T> {
         let progress = Progress::default();
         let result = if self.size < SMALL {
             py.detach(|| work(&progress))

@@ -33,14 +33,16 @@ pub fn trace<'py>(
 }
 
 /// The edges as canonical ones of the core: i < j, sorted, unique, within the points.
-fn canonical(py: Python<'_>, edges: &[[i64; 2]], points: usize) -> PyResult<Edges> {
+pub fn canonical(py: Python<'_>, edges: &[[i64; 2]], points: usize) -> PyResult<Edges> {
     let inside = |&row: &i64| row >= 0 && (row as usize) < points;
     if let Some(k) = edges.iter().position(|edge| edge[0] == edge[1] || !edge.iter().all(inside)) {
         let [i, j] = edges[k];
-        let message = format!("edge {k}: ({i}, {j}) does not join two different rows of the {points} points");
+        let message =
+            format!("edge {k}: ({i}, {j}) does not join two different rows of the {points} points");
         return Err(input_error(py, message));
     }
-    let mut canonical: Edges = edges.iter().map(|&[i, j]| [i.min(j) as u32, i.max(j) as u32]).collect();
+    let mut canonical: Edges =
+        edges.iter().map(|&[i, j]| [i.min(j) as u32, i.max(j) as u32]).collect();
     if !canonical.is_sorted() {
         canonical.sort_unstable();
     }

@@ -84,9 +84,9 @@ def read(
     -----
     Numbers are read exactly, to the nearest float64. csv, tsv and xyz are one reader: comma, tab,
     semicolon or spaces between columns, lines that start with # are comments, decimal commas where
-    semicolons separate. Columns are numbers if every value is one, else text. GeoJSON and WKT give
-    the vertices of every geometry, without the vertex that closes a ring. A property that is a list
-    with a value per vertex is spread over the vertices.
+    semicolons separate. Other columns are numbers if every value is one, else str objects. GeoJSON
+    and WKT give the vertices of every geometry, without the vertex that closes a ring. A property
+    that is everywhere a list with a value per vertex is spread over the vertices.
 
     Examples
     --------

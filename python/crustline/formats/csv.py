@@ -45,9 +45,18 @@ class _Table:
     def first_line(self) -> int:
         return self.text.count("\n", 0, self.start) + 1
 
+    def places(self, column: int) -> bool:
+        """Return whether a column is one of the coordinates."""
+        return column in self.positions
+
+    def is_trailing(self, column: int, cells: Column) -> bool:
+        """Return whether a column is only what follows a separator at the end of each line."""
+        named = self.names[column] != f"column{column}"
+        return not (named or self.places(column) or any(cells.tolist()))
+
     @property
     def others(self) -> list[int]:
-        return [k for k in range(len(self.names)) if k not in self.positions]
+        return [k for k in range(len(self.names)) if not self.places(k)]
 
     def error(self, row: int, column: int | None, fault: str) -> FormatError:
         """Return the error about a data row; its line is counted only now."""
@@ -99,8 +108,7 @@ def _survey(text: str, source: str, columns: Sequence[str | int] | None) -> _Tab
             "separate x and y by a comma, a tab, a semicolon or spaces"
         )
     positions = find_coordinates(names, columns, source)
-    data = _line_at(text, begin)
-    comma = separator == ";" and bool(re.search(r"\d,\d", data))
+    comma = separator == ";" and re.compile(r"\d,\d").search(text, begin) is not None
     return _Table(source, text, begin, separator, names, positions, comma)
 
 
@@ -126,7 +134,10 @@ def _sniff_separator(line: str) -> str | None:
 
 def _split(line: str, separator: str | None) -> list[str]:
     if separator is not None:
-        return next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
+        try:
+            return next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
+        except csv.Error:  # a cell beyond all bounds: no quotes are worth a thought
+            return line.split(separator)
     line = line.split("#", 1)[0]
     if '"' in line:
         return [cell.strip('"') for cell in re.findall(r'"[^"]*"|\S+', line)]
@@ -205,15 +216,19 @@ def _read_cells(table: _Table) -> dict[int, Column]:
     rows, count = _rows(table), 0
     while block := [cells for _, cells in islice(rows, _CHUNK)]:
         _check_widths(table, block, count)
-        for parts, cells in zip(chunks, zip(*block, strict=True), strict=True):
-            parts.append(np.array(cells, dtype=np.str_))
+        for k, cells in enumerate(zip(*block, strict=True)):
+            column: Column = np.array(
+                cells, dtype=np.object_
+            )  # "U" would give all rows the longest width
+            if table.places(k):
+                column = _as_coordinate(table, k, column, count)
+            chunks[k].append(column)
         count += len(block)
-    empty = np.empty(0, dtype=np.str_)
-    columns = {k: np.concatenate(parts) if parts else empty for k, parts in enumerate(chunks)}
+    columns = {k: np.concatenate(parts or [np.empty(0)]) for k, parts in enumerate(chunks)}
     return {
-        k: _as_coordinate(table, k, cells) if k in table.positions else _as_values(table, cells)
-        for k, cells in columns.items()
-        if k in table.positions or table.names[k] != f"column{k}" or not count or cells.any()
+        k: column if table.places(k) else _as_values(table, column)
+        for k, column in columns.items()
+        if not table.is_trailing(k, column)
     }
 
 
@@ -245,28 +260,28 @@ def _check_widths(table: _Table, block: list[list[str]], before: int) -> None:
     raise table.error(before + row, None, f"the row has {what}, not {width}: complete or remove it")
 
 
-def _as_coordinate(table: _Table, column: int, cells: Column) -> FloatArray:
+def _as_coordinate(table: _Table, column: int, cells: Column, before: int) -> FloatArray:
     numbers = _as_floats(table, cells)
     if numbers is None:
-        row = next(k for k, cell in enumerate(cells.tolist()) if not _parses(table, cell))
-        cell = str(cells[row])[:60]
+        row = next(k for k, cell in enumerate(cells) if not _parses(table, cell))
+        cell = cells[row][:60]
         fault = f"{cell!r} is not a number" if cell.strip() else "the value is missing"
-        raise table.error(row, column, f"{fault}: correct or remove the row")
+        raise table.error(before + row, column, f"{fault}: correct or remove the row")
     finite = np.isfinite(numbers)
     if not finite.all():
         row = int(np.argmin(finite))
-        fault = f"{str(cells[row])[:60]!r} is not finite: correct or remove the row"
-        raise table.error(row, column, fault)
+        fault = f"{cells[row][:60]!r} is not finite: correct or remove the row"
+        raise table.error(before + row, column, fault)
     return numbers
 
 
 def _parses(table: _Table, cell: str) -> bool:
-    return _as_floats(table, np.array([cell], dtype=np.str_)) is not None
+    return _as_floats(table, np.array([cell], dtype=np.object_)) is not None
 
 
 def _as_floats(table: _Table, cells: Column) -> FloatArray | None:
     if table.decimal_comma:
-        cells = np.char.replace(cells, ",", ".")
+        cells = np.array([cell.replace(",", ".") for cell in cells], dtype=np.object_)
     try:
         numbers = cells.astype(np.float64)
     except ValueError:
@@ -332,7 +347,7 @@ def _result_columns(curves: Curves) -> dict[str, Column]:
 def _cells(values: Column, separator: str) -> list[str]:
     """Return the cells of a column, in quotes where the text holds what would end a cell."""
     cells = texts(values)
-    if values.dtype.kind not in "US":
+    if values.dtype.kind not in "USO":
         return cells
     special = re.compile(f'[{separator}"\r\n]|^[\\s#]')
     return [f'"{c.replace(chr(34), 2 * chr(34))}"' if special.search(c) else c for c in cells]

@@ -186,14 +186,14 @@ def _columns(vertices: _Vertices) -> dict[str, npt.NDArray[Any]]:
 
 
 def _column(vertices: _Vertices, name: str) -> npt.NDArray[Any]:
-    values: list[Any] = []
-    for count, properties in zip(vertices.counts, vertices.properties, strict=True):
-        value = properties.get(name)
-        if isinstance(value, list) and len(value) == count:
-            values.extend(value)
-        else:
-            values.extend([value] * count)
-    return _as_column(values)
+    """Return a property at every vertex; lists with a value per vertex are spread over them."""
+    values = [properties.get(name) for properties in vertices.properties]
+    here = [(value, count) for value, count in zip(values, vertices.counts, strict=True) if count]
+    lists = [value for value, count in here if isinstance(value, list) and len(value) == count]
+    if len(lists) == len(here):
+        return _as_column(list(chain.from_iterable(lists)))
+    column = _as_column([value for value, _ in here])
+    return np.repeat(column, [count for _, count in here])
 
 
 def _as_column(values: list[Any]) -> npt.NDArray[Any]:
@@ -208,7 +208,7 @@ def _as_column(values: list[Any]) -> npt.NDArray[Any]:
             return np.array(values, dtype=np.float64)
     except OverflowError:
         pass
-    return np.array([_as_word(value) for value in values], dtype=np.str_)
+    return np.array([_as_word(value) for value in values], dtype=np.object_)
 
 
 def _as_word(value: Any) -> str:
@@ -276,7 +276,7 @@ class _Writer:
 def _as_json(values: npt.NDArray[Any]) -> list[Any]:
     if values.dtype.kind == "f":
         return [value if np.isfinite(value) else None for value in values.tolist()]
-    return values.tolist() if values.dtype.kind in "biuU" else list(map(str, values))
+    return values.tolist() if values.dtype.kind in "biuUO" else list(map(str, values))
 
 
 def _dump(value: Any) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import zipfile
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -30,6 +29,8 @@ def read_npy(content: bytes, source: str, columns: Sequence[str | int] | None) -
 def read_npz(content: bytes, source: str, columns: Sequence[str | int] | None) -> Points:
     """Return the points of an archive: array points, or x and y, with z, crs and other columns."""
     archive = _load(content, source)
+    if isinstance(archive, np.ndarray):
+        raise FormatError(f"{source} is an NPY file, not an NPZ archive: choose the format npy")
     arrays = {name: _member(archive, name, source) for name in archive.files}
     crs = arrays.pop("crs", None)
     names = arrays.pop("names", None)
@@ -48,7 +49,9 @@ def write_npz(curves: Curves, *, polygons: bool = False) -> bytes:
     attributes = attributes_of(curves)
     arrays: dict[str, Any] = {"points": curves.coordinates}
     arrays |= {name: getattr(curves, name) for name in _RESULT}
-    arrays |= {_PREFIX + name: values for name, values in attributes.columns.items()}
+    for name, values in attributes.columns.items():
+        text = values.dtype.kind == "O"  # which only a pickle could hold
+        arrays[_PREFIX + name] = values.astype(np.str_) if text else values
     if attributes.z is not None:
         arrays["z"] = attributes.z
     if attributes.crs is not None:
@@ -61,16 +64,18 @@ def write_npz(curves: Curves, *, polygons: bool = False) -> bytes:
 
 
 def _load(content: bytes, source: str) -> Any:
+    if not content.startswith((b"\x93NUMPY", b"PK")):
+        raise FormatError(f"{source} is no NPY or NPZ file: choose its format")
     try:
         return np.load(io.BytesIO(content), allow_pickle=False)
-    except (ValueError, OSError, EOFError, zipfile.BadZipFile) as error:
+    except Exception as error:  # a broken header or archive raises half a dozen kinds
         raise FormatError(f"{source} is no NumPy file of numbers: {_first_line(error)}") from None
 
 
 def _member(archive: Any, name: str, source: str) -> Array:
     try:
         return np.asarray(archive[name])
-    except (ValueError, OSError, EOFError, zipfile.BadZipFile) as error:
+    except Exception as error:
         raise FormatError(
             f"{source}, array {name!r} cannot be read: {_first_line(error)}"
         ) from None

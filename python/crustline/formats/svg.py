@@ -45,7 +45,7 @@ def write_svg(curves: Curves, *, polygons: bool = False) -> bytes:
     margin = _MARGIN * float((frame.high - frame.low).max()) or 1.0
     x, y = frame.low - margin
     width, height = frame.high - frame.low + 2 * margin
-    box = " ".join(map(repr, (float(x), float(-y - height), float(width), float(height))))
+    box = " ".join(f"{each:.9g}" for each in (x, -y - height, width, height))
     pixels = max(1, min(4 * _WIDTH, round(_WIDTH * height / width)))
     note = f' data-origin="{frame.origin[0]!s} {frame.origin[1]!s}" data-scale="{frame.scale!r}"'
     plain = not frame.origin.any() and frame.scale == 1

@@ -35,7 +35,7 @@ _DEPTHS = {
     "MULTIPOLYGON": 2,
 }
 _TOKEN = re.compile(
-    r"\s*(?:(?P<srid>SRID\s*=\s*\d+\s*;)|(?P<word>[A-Z]+)|(?P<leaf>\(\s*[-+.\d][^()]*\))"
+    r"\s*(?:(?P<srid>SRID\s*=\s*\d+\s*;)|(?P<word>[A-Z]+)|(?P<leaf>\(\s*(?:[-+.\d]|nan|inf)[^()]*\))"
     r"|(?P<mark>[(),;])|(?P<end>\Z))",
     re.IGNORECASE,
 )
@@ -109,8 +109,8 @@ class _Parser:
         while True:
             match = _TOKEN.match(self.text, place)
             if match is None:
-                self.start = place
-                rest = self.text[place : place + 40].split("\n")[0]
+                rest = self.text[place:].lstrip()[:40].split("\n")[0]
+                self.start = self.text.index(rest, place)
                 raise self.error(f"{rest!r} is no well-known text: correct it")
             kind = str(match.lastgroup)
             yield kind, match[kind], match.start(kind)
@@ -168,7 +168,7 @@ class _Parser:
         elif depth > 0:
             self._list(lambda: self._body(base, depth - 1))
         elif base == "MULTIPOINT" and self.kind != "leaf":
-            self._list(lambda: self._leaf(base))
+            self._list(lambda: self._body("POINT", 0))
         else:
             self._leaf(base)
 
@@ -199,7 +199,6 @@ def _bad_position(leaves: list[_Leaf], parser: _Parser, width: int) -> FormatErr
         for position in leaf.positions():
             fault = _fault_of_position(position, width)
             if fault:
-                # A line may hold many positions over many lines of text: count up to this one.
                 return parser.error(f"{' '.join(position)[:60]!r} {fault}", leaf.start)
     return parser.error("the positions do not fit together: correct them")
 

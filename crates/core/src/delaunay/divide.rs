@@ -91,10 +91,25 @@ impl Vertices<'_> {
             // Too close together for the code; these are sorted by x, then y.
             return (usize::midpoint(first, last), Cut::Vertical);
         }
-        let bit = 63 - differing.leading_zeros();
+        let bit = differing.ilog2();
         let middle = codes.partition_point(|code| code >> bit & 1 == 0);
         (first + middle, if bit % 2 == 1 { Cut::Vertical } else { Cut::Horizontal })
     }
+}
+
+/// Which way around a vertex: counter-clockwise or clockwise.
+#[derive(Clone, Copy)]
+enum Step {
+    Next,
+    Prev,
+}
+
+/// A half-edge, the vertex that it ends at, and where that is.
+#[derive(Clone, Copy)]
+struct End {
+    edge: u32,
+    vertex: u32,
+    point: Point,
 }
 
 /// A cell at work: its vertices and the graph on them.
@@ -160,9 +175,9 @@ impl Cell<'_> {
 
     /// The extremes among `hull`, which holds them.
     fn extremes(&self, hull: &[HullVertex]) -> Extremes {
-        hull[1..].iter().fold(Extremes::of(hull[0]), |all, &vertex| {
-            self.join(all, Extremes::of(vertex))
-        })
+        hull[1..]
+            .iter()
+            .fold(Extremes::of(hull[0]), |all, &vertex| self.join(all, Extremes::of(vertex)))
     }
 
     fn join(&self, a: Extremes, b: Extremes) -> Extremes {
@@ -221,85 +236,69 @@ impl Cell<'_> {
     }
 
     /// Close the gap above `base`, the lower tangent; return the upper one, from `high` to `low`.
+    ///
+    /// The base rises, one triangle at a time, on the candidate whose circle with the base holds no other vertex.
     fn zip(&mut self, mut base: u32) -> u32 {
+        let mut a = self.end(base);
+        let mut b = self.end(base ^ 1);
+        let mut low = self.end(self.rings.next(base ^ 1));
+        let mut high = self.end(self.rings.prev(base));
         loop {
-            let low = self.low_candidate(base);
-            let high = self.high_candidate(base);
-            base = match (low, high) {
-                (None, None) => return base,
-                (Some(l), None) => self.connect_low(base, l),
-                (None, Some(h)) => self.connect_high(base, h),
-                (Some(l), Some(h)) if self.circle_holds(base, l, h) => self.connect_high(base, h),
-                (Some(l), Some(_)) => self.connect_low(base, l),
-            };
-        }
-    }
-
-    /// The edge of the low side to the apex of the next triangle on `base`, once edges are gone whose
-    /// triangle's circle holds a vertex further on.
-    #[inline]
-    fn low_candidate(&mut self, base: u32) -> Option<u32> {
-        let mut e = self.rings.next(base ^ 1);
-        if !self.is_above(e, base) {
-            return None;
-        }
-        loop {
-            let next = self.rings.next(e);
-            if !self.circle_holds(base, e, next) {
-                return Some(e);
+            let low_is_above = is_left(a.point, b.point, low.point);
+            if low_is_above {
+                low = self.settle(low, [a, b], b.vertex, Step::Next);
             }
-            self.rings.remove(e);
-            e = next;
-        }
-    }
-
-    /// The mirror image of [`low_candidate`](Self::low_candidate).
-    #[inline]
-    fn high_candidate(&mut self, base: u32) -> Option<u32> {
-        let mut e = self.rings.prev(base);
-        if !self.is_above(e, base) {
-            return None;
-        }
-        loop {
-            let next = self.rings.prev(e);
-            if !self.circle_holds(base, e, next) {
-                return Some(e);
+            let high_is_above = is_left(a.point, b.point, high.point);
+            if high_is_above {
+                high = self.settle(high, [a, b], a.vertex, Step::Prev);
             }
-            self.rings.remove(e);
-            e = next;
+            if !low_is_above && !high_is_above {
+                return base;
+            }
+            if !low_is_above || high_is_above && in_circle(a.point, b.point, low.point, high.point)
+            {
+                base = self.connect(high.vertex, a.vertex, high.edge ^ 1, base ^ 1);
+                b = high;
+                high = self.end(self.rings.prev(base));
+            } else {
+                base = self.connect(b.vertex, low.vertex, base, low.edge ^ 1);
+                a = low;
+                low = self.end(self.rings.next(base ^ 1));
+            }
         }
     }
 
-    /// Does the circle through `base` and the end of `e` hold the end of `f`?
+    /// The candidate that stays, going around from `candidate`: edges whose triangle on the base `ends` has a circle that
+    /// holds the next vertex are removed. `last` is the other end of the base, where the ring comes around.
     #[inline]
-    fn circle_holds(&self, base: u32, e: u32, f: u32) -> bool {
-        let (b, a) = (self.rings.origin(base), self.rings.destination(base));
-        let (c, d) = (self.rings.destination(e), self.rings.destination(f));
-        // A short ring comes back to the base, whose ends are on the circle.
-        d != a && d != b && in_circle(self.point(a), self.point(b), self.point(c), self.point(d))
+    fn settle(&mut self, mut candidate: End, ends: [End; 2], last: u32, step: Step) -> End {
+        loop {
+            let next = self.end(match step {
+                Step::Next => self.rings.next(candidate.edge),
+                Step::Prev => self.rings.prev(candidate.edge),
+            });
+            let [a, b] = ends.map(|end| end.point);
+            if next.vertex == last || !in_circle(a, b, candidate.point, next.point) {
+                return candidate;
+            }
+            self.rings.remove(candidate.edge);
+            candidate = next;
+        }
     }
 
-    /// Connect the high end of `base` to the end of `e` on the low side.
+    /// Add the edge from `from` to `to`, right before `before` around the one and right after `after` around the other.
     #[inline]
-    fn connect_low(&mut self, base: u32, e: u32) -> u32 {
-        let new = self.rings.add(self.rings.origin(base), self.rings.destination(e));
-        self.rings.insert_before(new, base);
-        self.rings.insert_after(new ^ 1, e ^ 1);
-        new
-    }
-
-    /// Connect the end of `e` on the high side to the low end of `base`.
-    #[inline]
-    fn connect_high(&mut self, base: u32, e: u32) -> u32 {
-        let new = self.rings.add(self.rings.destination(e), self.rings.destination(base));
-        self.rings.insert_before(new, e ^ 1);
-        self.rings.insert_after(new ^ 1, base ^ 1);
+    fn connect(&mut self, from: u32, to: u32, before: u32, after: u32) -> u32 {
+        let new = self.rings.add(from, to);
+        self.rings.insert_before(new, before);
+        self.rings.insert_after(new ^ 1, after);
         new
     }
 
     #[inline]
-    fn is_above(&self, e: u32, base: u32) -> bool {
-        self.is_right_of(self.rings.destination(e), base)
+    fn end(&self, edge: u32) -> End {
+        let vertex = self.rings.destination(edge);
+        End { edge, vertex, point: self.point(vertex) }
     }
 
     #[inline]

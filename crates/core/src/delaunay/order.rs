@@ -57,9 +57,8 @@ struct Bounds {
 impl Bounds {
     fn of(points: &[Point]) -> Self {
         let empty = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
-        let bound = |chunk: &[Point]| {
-            chunk.iter().fold(empty, |b, p| b.join(Self { low: *p, high: *p }))
-        };
+        let bound =
+            |chunk: &[Point]| chunk.iter().fold(empty, |b, p| b.join(Self { low: *p, high: *p }));
         if points.len() <= GRAIN {
             return bound(points);
         }

@@ -157,13 +157,11 @@ impl<'a> Rings<'a> {
             self.slot_mut(half).origin = NONE;
         }
         let even = e & !1;
-        match self.free.chains.last_mut() {
-            Some(head) => self.slots[(even - self.first) as usize].next = std::mem::replace(head, even),
-            None => {
-                self.slot_mut(even).next = NONE;
-                self.free.chains.push(even);
-            }
+        if self.free.chains.is_empty() {
+            self.free.chains.push(NONE);
         }
+        let head = self.free.chains.last_mut().expect("there is one now");
+        self.slots[(even - self.first) as usize].next = std::mem::replace(head, even);
     }
 
     /// A planar graph on k vertices has at most 3k − 6 edges, so there is always a slot.

@@ -63,8 +63,12 @@ impl<'a> Star<'a> {
 }
 
 impl Stars {
-    /// Collect the stars of `vertices` vertices from the finished graph in `slots`; `hull` holds a half-edge of the hull,
-    /// outside to its right, or `NONE` if there are no edges. `flat` says that there is no triangle at all.
+    /// Collect the stars, and the hull, of the finished graph of `vertices` vertices in `slots`.
+    ///
+    /// `hull` is a half-edge of the hull, the outside to its right, or `NONE` if there are no edges.
+    ///
+    /// # Errors
+    /// A cancelled `progress`.
     pub fn collect(
         slots: &[HalfEdge],
         vertices: usize,

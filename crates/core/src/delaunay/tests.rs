@@ -86,7 +86,8 @@ fn scaling_and_shifting_exactly_changes_no_edge() {
         let points = Scatter(seed).lattice(40, 12.0);
         let expected = row_edges(&triangulate(&points));
         for exponent in [-1000, -300, 300, 1000] {
-            let scaled: Vec<_> = points.iter().map(|p| p.map(|x| x * 2f64.powi(exponent))).collect();
+            let scaled: Vec<_> =
+                points.iter().map(|p| p.map(|x| x * 2f64.powi(exponent))).collect();
             assert_eq!(row_edges(&triangulate(&scaled)), expected);
         }
         let shifted: Vec<_> = points.iter().map(|p| p.map(|x| x + 1e7)).collect();

@@ -1,0 +1,77 @@
+# crustline: `make help` lists what there is to make.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.installed
+SOURCES := $(shell find crates python -name '*.rs' -o -name '*.pyi' -o -name 'Cargo.toml') Cargo.toml Cargo.lock pyproject.toml
+
+.DEFAULT_GOAL := help
+.PHONY: help build demo test test-all test-rust test-python lint types format bench bench-quick bench-instructions fuzz figures experiment docs clean
+
+help: ## Show this list.
+	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-20s %s\n", $$1, $$2}'
+
+$(STAMP): $(SOURCES)
+	@command -v cargo >/dev/null || { echo "crustline needs a Rust toolchain: install one from https://rustup.rs"; exit 2; }
+	$(PYTHON) -c 'import sys; sys.exit("crustline needs Python 3.11 or later") if sys.version_info < (3, 11) else None'
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[test]'
+	@touch $(STAMP)
+
+build: $(STAMP) ## Make .venv and build the optimized library into it.
+
+demo: build ## Reconstruct a coast with islands; says which picture and GeoJSON it wrote.
+	@mkdir -p demo
+	@$(BIN)/crustline reconstruct examples/goose.csv -o demo/goose.geojson -o demo/goose.svg
+	@$(BIN)/crustline reconstruct examples/outline.csv --polygons -o demo/outline.geojson -o demo/outline.svg
+	@$(BIN)/crustline plot examples/goose.csv -o demo/goose.png --show points,crust
+	@$(BIN)/crustline plot examples/outline.csv -o demo/outline.png --show points,crust
+	@echo "Pictures: demo/goose.png, demo/outline.png (and .svg); GeoJSON: demo/goose.geojson, demo/outline.geojson"
+
+test: test-rust lint types test-python ## Prove that it works: cargo tests, lints, types, pytest with doctests.
+
+test-all: test ## The same and the slow tests.
+	$(BIN)/pytest -m slow
+
+test-rust: ## Test the core.
+	cargo test --workspace --release --quiet
+
+test-python: build ## Test the Python package, docstring examples included.
+	$(BIN)/pytest
+
+lint: build ## Check formatting and lints of both languages.
+	cargo fmt --check
+	cargo clippy --workspace --all-targets --release --quiet -- -D warnings
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: build ## Check types, and the stub against the compiled module.
+	$(BIN)/mypy
+	$(BIN)/python -m mypy.stubtest crustline._core --ignore-disjoint-bases
+
+format: build ## Format both languages.
+	cargo fmt
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+bench: build ## Time crustline against its rivals; writes docs/benchmarks.md (tens of minutes).
+	$(BIN)/python -m benchmarks.run
+
+bench-quick: build ## The same in under a minute, to the terminal.
+	$(BIN)/python -m benchmarks.run --quick
+
+bench-instructions: ## Count instructions with callgrind and fail past 5 % more than stored.
+	$(PYTHON) -m benchmarks.instructions
+
+fuzz: ## Fuzz the triangulation for a minute (needs cargo-fuzz and a nightly toolchain).
+	cd crates/core && cargo fuzz run delaunay -- -max_total_time=60
+
+figures: build ## Redraw the paper's figures into docs/gallery/.
+	$(BIN)/python -m docs.figures
+
+experiment: build ## Share of exact reconstructions against r; writes docs/experiments.md.
+	$(BIN)/python -m docs.experiment
+
+clean: ## Remove what was built.
+	rm -rf target $(VENV) demo benchmarks/build python/crustline/*.so

@@ -1,0 +1,251 @@
+"""Sampling: r-samples against their definition, evaluated densely and independently."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+from crustline import sampling, shapes
+from crustline.errors import InputError
+from crustline.feature_size import local_feature_size
+from crustline.sampling import (
+    Sample,
+    is_r_sample,
+    r_sample,
+    sample_for_error,
+    sampling_ratio,
+    thin,
+)
+from crustline.shapes import SmoothCurve
+
+FloatArray = npt.NDArray[np.float64]
+
+CURVES = {
+    "circle": shapes.circle(2),
+    "ellipse 1.1": shapes.ellipse(1.1, 1),
+    "ellipse 6": shapes.ellipse(6, 1),
+    "stadium": shapes.stadium(3, 0.5),
+    "trefoil": shapes.trefoil(3, 0.4),
+    "blob": shapes.blob(4),
+    "nested": shapes.ellipse(3, 2) + shapes.blob(5).moved(scale=0.7),
+    "side by side": shapes.circle() + shapes.circle().moved(offset=(2.3, 0)),
+}
+
+
+@pytest.fixture(params=list(CURVES), ids=lambda name: str(name).replace(" ", "-"))
+def curve(request: pytest.FixtureRequest) -> SmoothCurve:
+    return CURVES[request.param]
+
+
+def dense_ratio(curve: SmoothCurve, points: FloatArray, k: int = 8000) -> float:
+    """Return the largest dist(p, S) / LFS(p) over k points p of the curve: the definition, from below."""
+    t = np.arange(k) / k
+    p = curve.point(t)
+    nearest = np.min([np.hypot(p[:, 0] - x, p[:, 1] - y) for x, y in points], axis=0)
+    return float(np.max(nearest / local_feature_size(curve, t)))
+
+
+@pytest.mark.parametrize("r", [0.1, 0.25, 0.5, 0.8, 1.0])
+@pytest.mark.parametrize("mode", ["sparsest", "random"])
+def test_r_samples_are_r_samples(curve: SmoothCurve, r: float, mode: sampling.Mode) -> None:
+    sample = r_sample(curve, r, seed=7, mode=mode)
+    assert sampling_ratio(curve, sample) <= r
+    assert is_r_sample(curve, sample, r)
+    assert dense_ratio(curve, sample.points) <= r
+    assert np.allclose(curve.point(sample.t), sample.points)
+
+
+def test_sampling_ratio_is_the_supremum(curve: SmoothCurve) -> None:
+    rng = np.random.default_rng(3)
+    points = curve.point(rng.random(60))
+    ratio, below = sampling_ratio(curve, points), dense_ratio(curve, points, 40_000)
+    assert below <= ratio <= below * 1.002
+
+
+def test_sampling_ratio_of_a_regular_polygon_in_its_circle() -> None:
+    for n in (3, 4, 7, 50):
+        truth = 2 * np.sin(np.pi / (2 * n))
+        ratio = sampling_ratio(shapes.circle(3), shapes.regular_polygon(n, 3))
+        assert truth * (1 - 1e-12) <= ratio <= truth * (1 + 1e-4)
+
+
+def test_sampling_ratio_does_not_care_for_order_or_repetition() -> None:
+    curve = shapes.blob(2)
+    points = r_sample(curve, 0.4).points
+    shuffled = np.random.default_rng(1).permutation(np.repeat(points, 2, axis=0))
+    assert sampling_ratio(curve, shuffled) == pytest.approx(
+        sampling_ratio(curve, points), rel=1e-12
+    )
+
+
+def test_sparsest_circle_has_the_fewest_points() -> None:
+    for r in (0.1, 0.3, 0.7):
+        step = 4 * np.arcsin(r / 2)
+        assert len(r_sample(shapes.circle(5), r)) == int(np.ceil(2 * np.pi / step))
+
+
+def test_sparsest_is_tight_and_random_is_denser(curve: SmoothCurve) -> None:
+    sparsest, random = r_sample(curve, 0.3, 1), r_sample(curve, 0.3, 1, "random")
+    assert sampling_ratio(curve, sparsest) > 0.3 * 0.999
+    assert len(sparsest) < len(random) < 2.1 * len(sparsest)
+
+
+def test_samples_are_the_same_for_the_same_seed(curve: SmoothCurve) -> None:
+    for mode in ("sparsest", "random"):
+        one, two = r_sample(curve, 0.4, 9, mode), r_sample(curve, 0.4, 9, mode)  # type: ignore[arg-type]
+        assert np.array_equal(one.t, two.t)
+        other = r_sample(curve, 0.4, 10, mode)  # type: ignore[arg-type]
+        assert len(one) != len(other) or not np.allclose(one.t, other.t)
+
+
+def test_edges_join_neighbors_along_each_loop(curve: SmoothCurve) -> None:
+    sample = r_sample(curve, 0.3, seed=2)
+    assert len(sample.edges) == len(sample)
+    assert np.all(np.bincount(sample.edges.ravel()) == 2)
+    assert np.array_equal(sample.edges, np.unique(sample.edges, axis=0))
+    c = len(curve.loops)
+    loop = (sample.t * c).astype(int)
+    assert np.all(loop[sample.edges[:, 0]] == loop[sample.edges[:, 1]])
+    for i in range(c):
+        u = sample.t[loop == i] * c - i
+        assert np.sum(np.diff(np.append(u, u[0])) < 0) == 1
+
+
+def test_a_sample_is_an_array_of_points() -> None:
+    sample = r_sample(shapes.circle(), 0.5)
+    assert isinstance(sample, Sample)
+    assert np.array_equal(np.asarray(sample), sample.points)
+    assert np.asarray(sample, dtype=np.float32).dtype == np.float32
+
+
+def test_observation_6_two_curves_are_1_sampled_by_the_same_points() -> None:
+    points = shapes.two_octagons()
+    for curve in (shapes.two_octagons_separate(), shapes.two_octagons_joined()):
+        assert is_r_sample(curve, points, 1.0)
+        assert (
+            np.min(np.abs(curve.point(np.arange(16_000) / 16_000)[None] - points[:, None]).max(-1))
+            < 1e-3
+        )
+
+
+def test_theorem_13_error_sample_keeps_the_polygon_near(curve: SmoothCurve) -> None:
+    for d in (0.1, 1e-2, 1e-4):
+        sample = sample_for_error(curve, d, seed=4)
+        assert sampling_ratio(curve, sample) <= 0.252
+        assert _distance_to_polygon(curve, sample) <= d
+
+
+def test_theorem_13_bound_holds_for_r_samples(curve: SmoothCurve) -> None:
+    sample, t = r_sample(curve, 0.5, seed=4), np.arange(4000) / 4000
+    distance = _distances_to_polygon(curve.point(t), sample)
+    assert np.all(distance <= 0.5**2 / 2 * local_feature_size(curve, t) * (1 + 1e-4))
+
+
+def _distance_to_polygon(curve: SmoothCurve, sample: Sample) -> float:
+    return float(_distances_to_polygon(curve.point(np.arange(4000) / 4000), sample).max())
+
+
+def _distances_to_polygon(p: FloatArray, sample: Sample) -> FloatArray:
+    best = np.full(len(p), np.inf)
+    for i, j in sample.edges:
+        a, d = sample.points[i], sample.points[j] - sample.points[i]
+        along = np.clip((p - a) @ d / (d @ d), 0, 1)[:, None]
+        best = np.minimum(best, np.hypot(*(p - a - along * d).T))
+    return best
+
+
+def test_a_thousand_samples_are_quick() -> None:
+    curve = shapes.ellipse(3, 1)
+    start = time.perf_counter()
+    sample = r_sample(curve, 0.01)
+    assert len(sample) > 800
+    assert time.perf_counter() - start < 3
+
+
+@pytest.mark.parametrize("r", [0.0, -1.0, 1.01, float("nan")])
+def test_r_outside_the_papers_range_is_refused(r: float) -> None:
+    with pytest.raises(InputError, match="r must be in"):
+        r_sample(shapes.circle(), r)
+
+
+def test_other_bad_input_is_named() -> None:
+    with pytest.raises(InputError, match="mode must be"):
+        r_sample(shapes.circle(), 0.5, mode="dense")  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="points is empty"):
+        sampling_ratio(shapes.circle(), np.empty((0, 2)))
+    with pytest.raises(InputError, match="d must be positive"):
+        sample_for_error(shapes.circle(), 0.0)
+
+
+# Thinning. The samples are dense, so what is known of the curve is nearly true of its reconstruction.
+
+
+def dense(curve: SmoothCurve, r: float = 0.01) -> tuple[FloatArray, npt.NDArray[np.int64]]:
+    sample = r_sample(curve, r, seed=0, mode="random")
+    order = np.random.default_rng(0).permutation(len(sample))
+    rank = np.argsort(order)
+    return sample.points[order], np.sort(rank[sample.edges], axis=1)
+
+
+@pytest.mark.parametrize("r", [0.2, 0.5])
+def test_thinned_samples_still_r_sample_the_curve(curve: SmoothCurve, r: float) -> None:
+    points, edges = dense(curve)
+    kept = thin(points, edges, r)
+    assert np.array_equal(kept, np.unique(kept))
+    assert sampling_ratio(curve, points[kept]) <= r * 1.1
+    assert len(kept) <= 1.25 * len(r_sample(curve, r)) + 2
+
+
+def test_thin_keeps_endpoints_branches_and_isolated_points() -> None:
+    t = np.linspace(0, 1, 101)
+    bow = np.stack([t, 0.2 * np.sin(3 * t)], -1)
+    points = np.vstack([bow, [[0.5, 5.0]]])
+    edges = np.stack([np.arange(100), np.arange(1, 101)], -1)
+    kept = thin(points, edges, 0.3)
+    assert {0, 100, 101} <= set(kept.tolist())
+    assert len(kept) < 30
+
+
+def test_thin_of_sparse_samples_keeps_all() -> None:
+    sample = r_sample(shapes.trefoil(3, 0.4), 0.4)
+    assert np.array_equal(thin(sample.points, sample.edges, 0.1), np.arange(len(sample)))
+
+
+def test_thin_without_edges_keeps_all() -> None:
+    assert thin([(0, 0), (1, 1)], np.empty((0, 2), dtype=int), 0.2).tolist() == [0, 1]
+
+
+def test_thinned_chain_is_the_fewest_of_all_choices() -> None:
+    """Against dynamic programming over the same pairs, with LFS given."""
+    rng = np.random.default_rng(8)
+    for _ in range(20):
+        angle = np.sort(rng.random(24)) * 2 * np.pi
+        points = np.stack([np.cos(angle), np.sin(angle)], -1)
+        lfs = np.full(24, 1.0)
+        kept = sampling._thinned(points, lfs, 0.5, closed=False)
+        assert len(kept) == _fewest(points, lfs, 0.5)
+
+
+def _fewest(points: FloatArray, lfs: FloatArray, r: float) -> int:
+    count = {0: 1}
+    for j in range(1, len(points)):
+        count[j] = min(count[i] for i in range(j) if _serve(points, lfs, r, i, j)) + 1
+    return count[len(points) - 1]
+
+
+def _serve(points: FloatArray, lfs: FloatArray, r: float, i: int, j: int) -> bool:
+    """Return whether samples i and j alone serve the edges between them, sampled densely."""
+    if j == i + 1:
+        return True
+    for k in range(i, j):
+        s = np.linspace(0, 1, 201)[:, None]
+        p = points[k] + s * (points[k + 1] - points[k])
+        length = np.hypot(*(points[k + 1] - points[k]))
+        low = np.maximum(lfs[k] - length * s[:, 0], lfs[k + 1] - length * (1 - s[:, 0]))
+        near = np.minimum(*(np.hypot(*(p - points[end]).T) for end in (i, j)))
+        if np.any(near > r * low * (1 + 1e-9)):
+            return False
+    return True

@@ -1,0 +1,280 @@
+"""Smooth curves: their derivatives, curvature, medial axis and local feature size, against definitions."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+from crustline import shapes
+from crustline.errors import InputError
+from crustline.feature_size import local_feature_size, medial_axis_of_curve, nearest_site
+from crustline.shapes import Loop, SmoothCurve
+
+FloatArray = npt.NDArray[np.float64]
+
+CURVES = {
+    "circle": shapes.circle(2),
+    "ellipse": shapes.ellipse(3, 1),
+    "stadium": shapes.stadium(3, 0.5),
+    "trefoil": shapes.trefoil(3, 0.4),
+    "blob": shapes.blob(4),
+    "superformula": shapes.superformula(6, 3, 4, 4),
+    "fourier": shapes.fourier([0, 2, 0.1, 0.2j, 0, 0, -0.2, 0.3]),
+    "nested": shapes.ellipse(3, 2) + shapes.blob(5).moved(scale=0.7, angle=1.0, offset=(0.2, 0.1)),
+    "side by side": shapes.circle() + shapes.circle().moved(offset=(2.3, 0)),
+    "figure 6, separate": shapes.two_octagons_separate(),
+    "figure 6, joined": shapes.two_octagons_joined(),
+}
+SMOOTH = ["circle", "ellipse", "trefoil", "blob", "superformula", "fourier", "nested"]
+
+
+@pytest.fixture(params=list(CURVES), ids=lambda name: str(name).replace(" ", "-"))
+def curve(request: pytest.FixtureRequest) -> SmoothCurve:
+    return CURVES[request.param]
+
+
+def forgotten(curve: SmoothCurve) -> SmoothCurve:
+    """Return the curve without what is known of its medial axis, so that it is computed."""
+    return SmoothCurve(tuple(Loop(loop.derivatives, loop.pieces) for loop in curve.loops))
+
+
+def places(curve: SmoothCurve, k: int) -> FloatArray:
+    return (np.arange(k) + 0.37) / k
+
+
+def test_velocity_and_acceleration_are_the_derivatives(curve: SmoothCurve) -> None:
+    c, h = len(curve.loops), 1e-6
+    t = places(curve, 501)
+    _, velocity, acceleration = curve.derivatives(t)
+    ahead, behind = curve.derivatives(t + h / c), curve.derivatives(t - h / c)
+    assert np.allclose((ahead[0] - behind[0]) / (2 * h), velocity, atol=1e-6, rtol=1e-6)
+    assert np.allclose((ahead[1] - behind[1]) / (2 * h), acceleration, atol=1e-4, rtol=1e-5)
+
+
+def test_each_loop_closes(curve: SmoothCurve) -> None:
+    for part in curve.components:
+        assert np.allclose(part.point(0.0), part.point(np.nextafter(1, 0)), atol=1e-9)
+        assert np.allclose(part.tangent(0.0), part.tangent(np.nextafter(1, 0)), atol=1e-6)
+
+
+def test_components_are_the_curve(curve: SmoothCurve) -> None:
+    u = places(curve, 7)
+    for i, part in enumerate(curve.components):
+        assert np.allclose(part.point(u), curve.point((i + u) / len(curve.loops)), atol=1e-12)
+
+
+def test_curvature_is_the_turn_of_the_tangent_and_counter_clockwise_positive() -> None:
+    assert np.allclose(shapes.circle(2).curvature(places(shapes.circle(), 9)), 0.5)
+    for name in SMOOTH:
+        for part in CURVES[name].components:
+            t = np.arange(4000) / 4000
+            speed = np.hypot(*part.derivatives(t)[1].T)
+            assert np.mean(part.curvature(t) * speed) == pytest.approx(2 * np.pi)
+
+
+def test_tangent_and_normal_are_unit_and_at_right_angles(curve: SmoothCurve) -> None:
+    t = places(curve, 50).reshape(5, 10)
+    tangent, normal = curve.tangent(t), curve.normal(t)
+    assert tangent.shape == (5, 10, 2)
+    assert np.allclose(np.sum(tangent**2, -1), 1)
+    assert np.allclose(tangent[..., 0] * normal[..., 1] - tangent[..., 1] * normal[..., 0], 1)
+
+
+# The medial axis.
+
+
+@pytest.mark.parametrize("a", [1.1, 1.5, 2.0, 3.0, 4.0, 6.0])
+def test_ellipse_axis_computed_is_the_segment_known(a: float) -> None:
+    known = shapes.ellipse(a, 1)
+    t = np.linspace(0, 1, 2001)
+    computed = local_feature_size(forgotten(known), t)
+    assert np.max(np.abs(computed / local_feature_size(known, t) - 1)) < 1e-9
+    axis = medial_axis_of_curve(forgotten(known))
+    assert np.abs(axis.vertices[:, 1]).max() < 1e-9
+    assert axis.vertices[:, 0].max() == pytest.approx((a * a - 1) / a, rel=1e-9)
+
+
+@pytest.mark.parametrize("length", [0.1, 1.0, 5.0])
+def test_stadium_axis_computed_is_the_segment_known(length: float) -> None:
+    known = shapes.stadium(length, 0.7)
+    t = np.linspace(0, 1, 2001)
+    computed = local_feature_size(forgotten(known), t)
+    assert np.max(np.abs(computed / local_feature_size(known, t) - 1)) < 1e-4
+    assert np.all(local_feature_size(known, t) <= 0.7 * (1 + 1e-12))
+
+
+def test_local_feature_size_is_within_a_thousandth_of_brute_force() -> None:
+    """The Voronoi vertices of dense samples tend to the medial axis (Brandt and Algazi)."""
+    spatial = pytest.importorskip("scipy.spatial")
+    for name in ("trefoil", "blob", "superformula", "fourier", "nested", "side by side"):
+        curve = CURVES[name]
+        dense = curve.point((np.arange(30_000) + 0.5) / 30_000)
+        vertices = spatial.Voronoi(dense).vertices
+        t = places(curve, 1000)
+        truth = spatial.cKDTree(vertices).query(curve.point(t))[0]
+        assert np.max(np.abs(local_feature_size(curve, t) / truth - 1)) < 3e-4, name
+
+
+def test_axis_vertices_are_centers_of_empty_disks_that_touch(curve: SmoothCurve) -> None:
+    axis = medial_axis_of_curve(curve)
+    if axis.error == 0:
+        return
+    dense = curve.point(np.arange(20_000) / 20_000)
+    nearest, _ = nearest_site(axis.vertices, dense)
+    assert np.all(nearest > axis.radii * (1 - 1e-5))
+    assert np.all(nearest < axis.radii * (1 + 1e-3))
+
+
+def test_local_feature_size_is_1_lipschitz_and_at_most_the_radius_of_curvature() -> None:
+    for name in SMOOTH:
+        for part in CURVES[name].components:
+            t = np.arange(5000) / 5000
+            lfs, p = local_feature_size(part, t), part.point(t)
+            step = np.hypot(*(np.roll(p, -1, axis=0) - p).T)
+            assert np.all(np.abs(np.roll(lfs, -1) - lfs) <= step + 1e-4 * lfs)
+            assert np.all(lfs * np.abs(part.curvature(t)) <= 1 + 1e-4)
+
+
+def test_rtol_is_kept() -> None:
+    curve = shapes.trefoil(5, 0.5)
+    t = places(curve, 2000)
+    fine = local_feature_size(curve, t, rtol=1e-7)
+    for rtol in (1e-2, 1e-3, 1e-4):
+        error = np.max(np.abs(local_feature_size(curve, t, rtol=rtol) / fine - 1))
+        assert error <= rtol
+
+
+def test_local_feature_size_between_two_circles_is_half_the_gap() -> None:
+    curve = CURVES["side by side"]
+    assert local_feature_size(curve, 0.0) == pytest.approx(0.15, rel=1e-6)
+
+
+def test_local_feature_size_scales_and_turns_with_the_curve() -> None:
+    curve = shapes.blob(11)
+    moved = curve.moved(scale=2.0**20, angle=0.7, offset=(3, -4))
+    t = places(curve, 300)
+    assert np.allclose(
+        local_feature_size(moved, t), 2.0**20 * local_feature_size(curve, t), rtol=1e-4
+    )
+
+
+def test_local_feature_size_keeps_the_shape_of_t() -> None:
+    assert local_feature_size(shapes.circle(), np.zeros((2, 3))).shape == (2, 3)
+    assert float(local_feature_size(shapes.circle(), 0.25)) == pytest.approx(1.0)
+
+
+def test_a_curve_that_crosses_itself_is_refused() -> None:
+    figure_eight = shapes.fourier([0, 1, 0.9, 0, 0])
+    with pytest.raises(InputError, match="crosses or touches itself near"):
+        local_feature_size(figure_eight, 0.0)
+    with pytest.raises(InputError, match="crosses or touches itself near"):
+        local_feature_size(shapes.circle() + shapes.circle().moved(offset=(0.5, 0)), 0.0)
+
+
+# The shapes' own input.
+
+
+def test_superformula_with_squares_is_the_ellipse() -> None:
+    curve = shapes.superformula(4, 2, 2, 2, a=2, b=1)
+    x, y = curve.point(places(curve, 100)).T
+    assert np.allclose((x / 2) ** 2 + y**2, 1)
+
+
+def test_fourier_descriptors_of_points_give_back_the_points() -> None:
+    points = shapes.regular_polygon(9, 2.0) + [1, -1]
+    z = points @ [1, 1j]
+    curve = shapes.fourier(np.fft.fft(z) / len(z))
+    assert np.allclose(curve.point(np.arange(9) / 9), points)
+
+
+def test_blobs_are_seeded() -> None:
+    t = places(shapes.circle(), 20)
+    assert np.array_equal(shapes.blob(3).point(t), shapes.blob(3).point(t))
+    assert not np.allclose(shapes.blob(3).point(t), shapes.blob(4).point(t))
+
+
+def test_spline_goes_through_its_points() -> None:
+    pytest.importorskip("scipy")
+    points = CURVES["trefoil"].point(np.arange(40) / 40)
+    curve = shapes.spline(points)
+    chords = np.hypot(*np.diff(np.vstack([points, points[:1]]), axis=0).T)
+    t = np.concatenate([[0], np.cumsum(chords)[:-1]]) / chords.sum()
+    assert np.allclose(curve.point(t), points)
+    with pytest.raises(InputError, match="point 1 equals"):
+        shapes.spline([(0, 0), (1, 0), (1, 0), (0, 1)])
+
+
+def test_bezier_path_from_file_and_string(tmp_path: Path) -> None:
+    pytest.importorskip("svgelements")
+    d = "M 0 0 C 0 1.5 2 1.5 2 0 C 2 -1.5 0 -1.5 0 0 Z"
+    file = tmp_path / "loop.svg"
+    file.write_text(
+        f'<svg xmlns="http://www.w3.org/2000/svg"><path d="{d}" transform="translate(5 0)"/>'
+        '<circle cx="0" cy="9" r="2"/></svg>'
+    )
+    curve, alone = shapes.bezier_path(file), shapes.bezier_path(d)
+    assert len(curve.loops) == 2
+    u = places(alone, 11)
+    assert np.allclose(curve.components[0].point(u), alone.point(u) + [5, 0])
+    assert np.allclose(np.hypot(*(curve.components[1].point(u) - [0, 9]).T), 2, rtol=1e-3)
+
+
+def test_bezier_path_makes_rounded_joints_smooth_and_refuses_corners() -> None:
+    pytest.importorskip("svgelements")
+    rounded = shapes.bezier_path("M 0 0 C 0.001 1.5 2 1.5 2 0 C 2 -1.5 0 -1.5 0 0 Z")
+    assert np.allclose(rounded.tangent(0.0), rounded.tangent(np.nextafter(1, 0)))
+    with pytest.raises(InputError, match="subpath 0 has a corner of 90"):
+        shapes.bezier_path("M 0 0 H 1 V 1 H 0 Z")
+    with pytest.raises(InputError, match="subpath 0 is open at"):
+        shapes.bezier_path("M 0 0 C 0 1 1 1 2 0")
+    with pytest.raises(InputError, match="holds no path"):
+        shapes.bezier_path("M 0 0")
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: shapes.circle(0), "r must be positive"),
+        (lambda: shapes.ellipse(1, float("nan")), "b must be positive"),
+        (lambda: shapes.stadium(1, -1), "radius must be positive"),
+        (lambda: shapes.trefoil(3, 1.0), "depth must be in"),
+        (lambda: shapes.superformula(5, 2, 2, 2), "m must be an even"),
+        (lambda: shapes.superformula(4, 2, 1, 2), "n2 must be at least 2"),
+        (lambda: shapes.fourier([1.0]), "one besides the first"),
+        (lambda: shapes.union(), "at least one loop"),
+    ],
+)
+def test_bad_input_is_named(make: object, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        make()  # type: ignore[operator]
+
+
+# Point sets.
+
+
+def test_two_octagons_are_regular_and_two_pairs_make_a_square() -> None:
+    points = shapes.two_octagons()
+    side = 2 * np.sin(np.pi / 8)
+    for octagon in (points[:8], points[8:]):
+        assert np.allclose(np.hypot(*(octagon - np.roll(octagon, -1, axis=0)).T), side)
+    square = points[[0, 7, 8, 15]]
+    assert np.allclose(np.hypot(*(square - np.roll(square, -1, axis=0)).T), side)
+
+
+def test_lattice_and_regular_polygon() -> None:
+    assert shapes.lattice(4).shape == (16, 2)
+    assert np.array_equal(shapes.lattice(3, 2), [[0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [2, 1]])
+    assert np.allclose(np.hypot(*shapes.regular_polygon(7, 3).T), 3)
+
+
+def test_nearest_site_is_the_nearest_of_all() -> None:
+    rng = np.random.default_rng(5)
+    for n in (1, 2, 17, 1500):
+        sites, queries = rng.random((n, 2)) ** 3, rng.random((400, 2)) * 2 - 0.5
+        distance, row = nearest_site(queries, sites)
+        every = np.hypot(*(queries[:, None] - sites[None]).transpose(2, 0, 1))
+        assert np.allclose(distance, every.min(axis=1))
+        assert np.allclose(every[np.arange(400), row], distance)
