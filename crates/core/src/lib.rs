@@ -5,9 +5,12 @@
 //! that they are compared with, on a Delaunay triangulation of our own. No Python, no input or output,
 //! no global state; parallel work runs on the current rayon pool and never changes an answer.
 
+pub mod adjacency;
 pub mod delaunay;
 pub mod edges;
 pub mod error;
+pub mod feature_size;
+pub mod medial_axis;
 pub mod methods;
 pub mod pencil;
 pub mod point;

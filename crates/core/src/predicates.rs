@@ -53,13 +53,13 @@ pub fn in_circle(a: Point, b: Point, c: Point, d: Point) -> bool {
 }
 
 /// Are the products of this coordinate safe from underflow and overflow in expansions?
-fn is_moderate(x: &f64) -> bool {
-    *x == 0.0 || (1e-55..1e55).contains(&x.abs())
+fn is_moderate(x: f64) -> bool {
+    x == 0.0 || (1e-55..1e55).contains(&x.abs())
 }
 
 #[cold]
 fn exact_orientation(a: Point, b: Point, c: Point) -> Ordering {
-    if [a, b, c].iter().flatten().all(is_moderate) {
+    if [a, b, c].iter().flatten().copied().all(is_moderate) {
         return robust::orient2d(coord(a), coord(b), coord(c)).total_cmp(&0.0);
     }
     exact_sign(&Orientation, c, &[a, b])
@@ -71,7 +71,7 @@ fn exact_in_circle(a: Point, b: Point, c: Point, d: Point) -> bool {
     if let Some(sign) = small_sign(&InCircle, d, &[a, b, c]) {
         return sign == Greater;
     }
-    if [a, b, c, d].iter().flatten().all(is_moderate) {
+    if [a, b, c, d].iter().flatten().copied().all(is_moderate) {
         return robust::incircle(coord(a), coord(b), coord(c), coord(d)) > 0.0;
     }
     exact_sign(&InCircle, d, &[a, b, c]) == Greater

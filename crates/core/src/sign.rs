@@ -16,10 +16,13 @@ pub trait Number: Clone {
     /// The number `value`.
     fn integer(value: i64) -> Self;
     /// `self + other`.
+    #[must_use]
     fn plus(&self, other: &Self) -> Self;
     /// `self - other`.
+    #[must_use]
     fn minus(&self, other: &Self) -> Self;
     /// `self * other`.
+    #[must_use]
     fn times(&self, other: &Self) -> Self;
 }
 
@@ -205,14 +208,14 @@ impl Number for BigInt {
 pub fn decompose(x: f64) -> (i64, i32) {
     let bits = x.to_bits();
     let biased = ((bits >> 52) & 0x7ff) as i32;
-    let fraction = (bits & ((1 << 52) - 1)) as i64;
+    let fraction = (bits & ((1 << 52) - 1)).cast_signed();
     let mantissa = if biased == 0 { fraction } else { fraction | (1 << 52) };
     if mantissa == 0 {
         return (0, 0);
     }
     let zeros = mantissa.trailing_zeros();
     let odd = mantissa >> zeros;
-    (if x < 0.0 { -odd } else { odd }, biased.max(1) - 1075 + zeros as i32)
+    (if x < 0.0 { -odd } else { odd }, biased.max(1) - 1075 + zeros.cast_signed())
 }
 
 /// The largest power of two that all coordinates are multiples of, as its exponent.

@@ -34,10 +34,10 @@ pub fn integer_rows<'py, const N: usize>(
 }
 
 /// A fresh read-only array of integers.
-pub fn integers<'py>(
-    py: Python<'py>,
+pub fn integers(
+    py: Python<'_>,
     values: impl ExactSizeIterator<Item = i64>,
-) -> Bound<'py, PyArray1<i64>> {
+) -> Bound<'_, PyArray1<i64>> {
     let array = PyArray1::from_iter(py, values);
     array.readwrite().make_nonwriteable();
     array
@@ -50,7 +50,7 @@ pub fn coordinates<'py>(py: Python<'py>, points: &[Point]) -> PyResult<Bound<'py
 }
 
 /// Any values as a fresh read-only array.
-pub fn values<'py, T: Element>(py: Python<'py>, values: Vec<T>) -> Bound<'py, PyArray1<T>> {
+pub fn values<T: Element>(py: Python<'_>, values: Vec<T>) -> Bound<'_, PyArray1<T>> {
     let array = PyArray1::from_vec(py, values);
     array.readwrite().make_nonwriteable();
     array

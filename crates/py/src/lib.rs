@@ -4,6 +4,8 @@ mod arrays;
 mod call;
 mod delaunay;
 mod errors;
+mod feature_size;
+mod medial_axis;
 mod methods;
 mod trace;
 
@@ -16,6 +18,10 @@ mod _core {
     use crate::delaunay::Delaunay;
     #[pymodule_export]
     use crate::methods::{crust, one_step_crust};
+    #[pymodule_export]
+    use crate::feature_size::feature_size;
+    #[pymodule_export]
+    use crate::medial_axis::medial_axis;
     #[pymodule_export]
     use crate::trace::trace;
     use pyo3::prelude::*;
