@@ -270,7 +270,9 @@ impl Cell<'_> {
 
     /// The candidate that stays, going around from `candidate`: edges whose triangle on the base `ends` has a circle that
     /// holds the next vertex are removed. `last` is the other end of the base, where the ring comes around.
-    #[inline]
+    // A call costs as much as the in-circle test that most calls make; callgrind counts 4 % fewer instructions in all.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
     fn settle(&mut self, mut candidate: End, ends: [End; 2], last: u32, step: Step) -> End {
         loop {
             let next = self.end(match step {
