@@ -69,7 +69,7 @@ def measure(
     results = {c: Result(distribution, size, n, c.name, c.task) for c in contenders}
     with ExitStack() as stack:
         workers = dict(start(results, path, bounds, stack))
-        repeats = {c: warm_up(results[c], worker) for c, worker in workers.items()}
+        repeats = {c: warm_up(results[c], worker, bounds) for c, worker in workers.items()}
         for _ in range(bounds.turns):
             take_turns(results, workers, repeats)
         compare_edges(results, workers)
@@ -80,24 +80,27 @@ def start(
     results: dict[Contender, Result], path: Path, bounds: Bounds, stack: ExitStack
 ) -> Iterator[tuple[Contender, Worker]]:
     for contender, result in results.items():
+        worker = stack.enter_context(closing(Worker(contender, path, bounds.timeout)))
         try:
-            worker = Worker(contender, path, bounds.timeout)
+            worker.wait_for_points()
         except ContenderFailedError as failure:
             result.note = str(failure)
         else:
-            yield contender, stack.enter_context(closing(worker))
+            yield contender, worker
 
 
-def warm_up(result: Result, worker: Worker) -> int:
+def warm_up(result: Result, worker: Worker, bounds: Bounds) -> int:
     """Run once for the peak memory; return how many runs fill a turn."""
     try:
         seconds, result.peak_bytes = worker.first_run()
         if seconds["wall"] < TURN_SECONDS:
             seconds = worker.run(1)
-        return ceil(TURN_SECONDS / seconds["wall"])
     except ContenderFailedError as failure:
         result.note = str(failure)
         return 0
+    if seconds["wall"] > bounds.run_seconds:
+        result.note = f"too slow: {seconds['wall']:.0f} s, measured once"
+    return ceil(TURN_SECONDS / seconds["wall"])
 
 
 def take_turns(

@@ -7,10 +7,18 @@ import matplotlib as mpl
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 
-from .rivals import OURS
+from .rivals import CONTENDERS, OURS, Contender
 from .targets import Results
 
 PANELS = ("uniform", "curves")
+
+
+def maker(contender: Contender) -> str:
+    """Whose work it is; it has one color in all panels."""
+    return contender.name.removesuffix(", two passes")
+
+
+COLORS = {name: f"C{k}" for k, name in enumerate(dict.fromkeys(map(maker, CONTENDERS)))}
 # Text stays text, and the file is the same for the same figures.
 STYLE: Any = {"svg.fonttype": "none", "svg.hashsalt": "crustline", "font.size": 9}
 
@@ -40,6 +48,7 @@ def draw(axes: Axes, results: Results, distribution: str, task: str) -> None:
             [r.seconds for r in done],
             marker="o",
             markersize=3,
+            color=COLORS[maker(contender)],
             linewidth=2.2 if ours else 1,
             zorder=3 if ours else 2,
             label=contender.name,

@@ -16,7 +16,7 @@ from .rivals import OURS, Contender
 from .small_calls import small_calls
 from .targets import Results, errors
 
-FULL = Bounds(turns=5, run_seconds=15, timeout=80)
+FULL = Bounds(turns=5, run_seconds=15, timeout=30)
 QUICK = Bounds(turns=5, run_seconds=0.7, timeout=10)
 
 
@@ -53,10 +53,10 @@ def reason_to_skip(history: Sequence[Result], size: int, bounds: Bounds) -> str 
         return None
     last = history[-1]
     if last.note:
-        return f"left out: at {last.size:,} points, {last.note}"
+        return last.note if "(at" in last.note else f"{last.note} (at {last.size:,} points)"
     expected = expected_seconds(history, size)
     return (
-        f"left out: about {table.seconds(expected)} expected"
+        f"too slow: about {table.seconds(expected)} expected"
         if expected > bounds.run_seconds
         else None
     )

@@ -117,7 +117,7 @@ def line(result: Result) -> str:
 
 
 def target_row(target: Target) -> list[str]:
-    measured = "" if target.measured is None else f"{target.measured:.3g}{target.unit}"
+    measured = "" if target.measured is None else f"{target.measured:.4g}{target.unit}"
     return [target.text, f"{target.bound:g}{target.unit}", measured, target.verdict]
 
 
@@ -160,7 +160,7 @@ def shown(
     if result is None:
         return ""
     if result.note:
-        return "too slow" if result.note.startswith("left out") else "fails"
+        return "too slow" if result.note.startswith("too slow") else "fails"
     return cell(result)
 
 

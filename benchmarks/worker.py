@@ -3,6 +3,7 @@
 import json
 import select
 import subprocess
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -21,7 +22,7 @@ class Worker:
     def __init__(self, contender: Contender, path: Path, timeout: float) -> None:
         self.contender = contender
         self.timeout = timeout
-        self.errors = (BUILD / "stderr.txt").open("w+")
+        self.errors = tempfile.TemporaryFile("w+")  # noqa: SIM115 (close ends it)
         self.process = subprocess.Popen(
             (*contender.command, str(path)),
             stdin=subprocess.PIPE,
@@ -31,6 +32,9 @@ class Worker:
         )
         assert self.process.stdout is not None
         self.answers = self.process.stdout
+
+    def wait_for_points(self) -> None:
+        """Wait until the points are loaded, which is what the first answer says."""
         self.read()
 
     def run(self, repeats: int) -> dict[str, float]:
@@ -65,7 +69,7 @@ class Worker:
     def read(self) -> dict[str, float]:
         ready, _, _ = select.select([self.answers], [], [], self.timeout)
         if not ready:
-            raise ContenderFailedError(f"more than {self.timeout:.0f} s")
+            raise ContenderFailedError(f"too slow: more than {self.timeout:.0f} s")
         line = self.answers.readline()
         if not line:
             raise ContenderFailedError(self.last_words())
@@ -75,8 +79,9 @@ class Worker:
     def last_words(self) -> str:
         status = self.process.wait()
         self.errors.seek(0)
-        lines = [line.strip() for line in self.errors if line.strip()]
-        return f"fails: {lines[-1][:100]}" if lines else f"crashes with status {status}"
+        lines = self.errors.read().splitlines()
+        errors = [line for line in lines if "Error: " in line or "panicked" in line] or lines
+        return f"fails: {errors[-1][:100]}" if errors else f"crashes with status {status}"
 
     def memory(self, field: str) -> int:
         for line in self.process_file("status").read_text().splitlines():

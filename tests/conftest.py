@@ -12,7 +12,7 @@ TESTS = Path(__file__).resolve().parent
 sys.path.insert(0, str(TESTS))
 
 settings.register_profile(
-    "crustline", derandomize=True, deadline=None, database=None, max_examples=150
+    "crustline", derandomize=True, deadline=None, database=None, max_examples=80
 )
 settings.load_profile("crustline")
 

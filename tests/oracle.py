@@ -194,18 +194,58 @@ def one_step_crust(points: Any) -> Edges:
     return s.edges((i, j) for (i, j), ends in s.spans.items() if is_kept(i, j, ends))
 
 
-def crossing_angle(points: Any, cot: Fraction) -> Edges:
-    """The dual Voronoi edge is seen from the points under at least arccot(cot), in (0, pi)."""
+def crossing_angle_graph(points: Any, cot: Fraction) -> Edges:
+    """Two disks touch both, hold no point inside, and cross at arccot(cot), in (0, pi), or more.
+
+    They are the disks of the two ends of the dual Voronoi edge, which is seen from the points under
+    that angle. An end at infinity has no disk, so that its angle must be exceeded.
+    """
     s = point_set(points)
 
     def sees(lo: Ratio, hi: Ratio) -> bool:
-        if lo[1] == hi[1] == 0:  # a whole line: the straight angle
+        if lo[1] == hi[1] == 0:  # a whole line: every angle below the straight one
             return True
         # The directions to the two ends, the edge along the first axis and its length 2.
         (ux, uy), (vx, vy) = (lo[1], 2 * lo[0]), (hi[1], 2 * hi[0])
-        return ux * vy > uy * vx and ux * vx + uy * vy <= cot * (ux * vy - uy * vx)
+        cross, dot = ux * vy - uy * vx, ux * vx + uy * vy
+        is_open = lo[1] == 0 or hi[1] == 0
+        return cross > 0 and (dot < cot * cross if is_open else dot <= cot * cross)
 
     return s.edges(pair for pair, ends in s.spans.items() if sees(*ends))
+
+
+def gamma_graph(points: Any, c0: float, c1: float) -> Edges:
+    """One of two mirror images of Veltkamp's neighborhood of both points holds no point inside.
+
+    The two disks touch both and have the radii d / 2 (1 - |c|), their centers on different sides if
+    c0 and c1 have one sign, else on one side. The neighborhood is their union if the one of c0, c1
+    that is larger in size is positive, else their intersection.
+    """
+    larger = max(c0, c1, key=abs)
+    side = -1 if c0 * c1 > 0 else 1
+    combine = any if larger > 0 else all
+
+    def is_free(s: PointSet, i: int, j: int, turn: int) -> bool:
+        p, q = s.points[i], s.points[j]
+        others = [r for k, r in enumerate(s.points) if k not in (i, j)]
+        disks = ((turn, c0), (turn * side, c1))
+        return not any(combine(_in_disk(p, q, r, *disk) for disk in disks) for r in others)
+
+    s = point_set(points)
+    pairs = combinations(range(len(s.points)), 2)
+    return s.edges((i, j) for i, j in pairs if is_free(s, i, j, 1) or is_free(s, i, j, -1))
+
+
+def _in_disk(p: Point, q: Point, r: Point, side: int, c: float) -> bool:
+    """Whether r is inside the disk of radius d / 2 (1 - |c|) centered on the side, or between."""
+    dot, cross = _dot(r, p, q), _cross(p, q, r)
+    if cross == 0:
+        return dot < 0
+    left = 1 if cross > 0 else -1
+    if abs(c) == 1:  # a half plane
+        return side == left
+    t_squared = (1 / (1 - abs(Fraction(c))) ** 2 - 1) / 4
+    return _compare_root(side, t_squared, (left * dot, 2 * abs(cross))) * left > 0
 
 
 def rcgh(points: Any) -> Edges:

@@ -316,3 +316,9 @@ def test_other_edges_differ():
 def test_notebooks_show_a_picture():
     assert rings(square())._repr_svg_().startswith("<svg")
     assert isinstance(rings(square()), Curves)
+
+
+def test_a_repeated_row_of_a_joined_point_is_not_isolated() -> None:
+    square = [(0, 0), (1, 0), (1, 1), (0, 1), (1, 1), (9, 9), (9, 9)]
+    curves = trace(square, [(0, 1), (1, 2), (2, 3), (0, 3)])
+    assert curves.isolated.tolist() == [5]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from typing import Any
@@ -256,6 +257,28 @@ def test_a_shape_of_exact_voronoi_vertices_is_the_crust() -> None:
     assert seen >= 100
 
 
+SIZES = (-1.0, -0.75, -0.5, -0.25, 0.0, 0.2, 0.25, 0.5, 0.75, 1.0)
+
+
+@pytest.mark.parametrize("c0", SIZES)
+def test_gamma_graph(c0: float) -> None:
+    rng = np.random.default_rng(15)
+    for points in sets(make.degenerate, 60, seed=78):
+        c1 = float(rng.choice(SIZES))
+        for moved in (points, make.few_ulps_off(rng, points)):
+            assert_is(cl.gamma_graph(moved, c0, c1), oracle.gamma_graph(moved, c0, c1), moved)
+
+
+@pytest.mark.parametrize("angle", [0.3, math.pi / 4, 1.2, math.pi / 2, 1.7, 3 * math.pi / 4, 3.0])
+def test_crossing_angle_graph(angle: float) -> None:
+    cot = Fraction(math.tan(math.pi / 2 - angle))
+    rng = np.random.default_rng(16)
+    for points in sets(make.degenerate, 60, seed=79):
+        for moved in (points, make.few_ulps_off(rng, points)):
+            expected = oracle.crossing_angle_graph(moved, cot)
+            assert_is(cl.crossing_angle_graph(moved, angle), expected, moved)
+
+
 # What the triangulation says of itself.
 
 
@@ -282,6 +305,8 @@ ALL = {
     "lune": lambda points: cl.beta_skeleton(points, 1.7, kind="lune"),
     "below_one": lambda points: cl.beta_skeleton(points, 0.9),
     "alpha_shape": lambda points: cl.alpha_shape(points, 2.5),
+    "gamma_graph": lambda points: cl.gamma_graph(points, 0.5, -0.25),
+    "crossing_angle_graph": lambda points: cl.crossing_angle_graph(points, 1.7),
     **{name: method for name, (method, _) in PARAMETER_FREE.items()},
 }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from itertools import pairwise
 
@@ -28,6 +29,8 @@ METHODS: dict[str, Method] = {
     "one_step_crust": cl.one_step_crust,
     "rcgh": cl.rcgh,
     "nn_crust": cl.nn_crust,
+    "gamma_graph": lambda points: cl.gamma_graph(points, 0.5, -0.25),
+    "crossing_angle_graph": lambda points: cl.crossing_angle_graph(points, 1.7),
     "minimum_spanning_tree": cl.minimum_spanning_tree,
 }
 DIRECTED = {
@@ -147,6 +150,26 @@ def test_circle_based_skeleton_lies_in_the_lune_based(points: Rows, beta: float)
     assert pairs(cl.beta_skeleton(points, beta)) <= pairs(
         cl.beta_skeleton(points, beta, kind="lune")
     )
+
+
+@given(ANY, st.sampled_from([0.5, 0.75, 0.875]))
+def test_gamma_of_equal_sizes_is_the_beta_skeleton(points: Rows, c: float) -> None:
+    # Sizes for which 1 / (1 - c) is exact in doubles.
+    assert pairs(cl.gamma_graph(points, c, c)) == pairs(cl.beta_skeleton(points, 1 / (1 - c)))
+    assert pairs(cl.gamma_graph(points, -c, -c)) == pairs(cl.beta_skeleton(points, 1 - c))
+
+
+@given(ANY)
+def test_crossing_at_a_right_angle_is_the_one_step_crust(points: Rows) -> None:
+    right = pairs(cl.crossing_angle_graph(points, math.pi / 2))
+    assert right == pairs(cl.one_step_crust(points))
+
+
+@given(ANY)
+def test_a_larger_crossing_angle_gives_a_smaller_graph(points: Rows) -> None:
+    graphs = [pairs(cl.crossing_angle_graph(points, angle)) for angle in (0.5, 1.0, 1.7, 2.5)]
+    for larger, smaller in pairwise(graphs):
+        assert smaller <= larger
 
 
 @given(ANY)

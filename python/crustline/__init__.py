@@ -7,13 +7,40 @@ The path that data takes::
 `reconstruct(points)` does the middle of it in one call.
 """
 
+from crustline import shapes, theory
 from crustline._core import __version__
-from crustline.curves import Curve, Curves, reconstruct, trace
+from crustline.curves import Curve, Curves, Polygon, reconstruct, trace
 from crustline.delaunay import Delaunay
 from crustline.errors import CrustlineError, FormatError, InputError, MissingExtraError
+from crustline.feature_size import local_feature_size
 from crustline.formats import read, write
-from crustline.methods import METHODS, crust, one_step_crust
+from crustline.medial import MedialAxis, medial_axis
+from crustline.methods import (
+    METHODS,
+    a_shape,
+    alpha_shape,
+    beta_skeleton,
+    crossing_angle_graph,
+    crust,
+    gabriel,
+    gamma_graph,
+    minimum_spanning_tree,
+    nn_crust,
+    one_step_crust,
+    rcgh,
+    relative_neighborhood,
+)
 from crustline.points import Points
+from crustline.sampling import (
+    Sample,
+    is_r_sample,
+    r_sample,
+    sample_for_error,
+    sampling_ratio,
+    thin,
+)
+from crustline.smooth import SmoothCurves, Spline, smooth
+from crustline.theory import guaranteed_r
 
 __all__ = [
     "METHODS",
@@ -23,13 +50,39 @@ __all__ = [
     "Delaunay",
     "FormatError",
     "InputError",
+    "MedialAxis",
     "MissingExtraError",
     "Points",
+    "Polygon",
+    "Sample",
+    "SmoothCurves",
+    "Spline",
     "__version__",
+    "a_shape",
+    "alpha_shape",
+    "beta_skeleton",
+    "crossing_angle_graph",
     "crust",
+    "gabriel",
+    "gamma_graph",
+    "guaranteed_r",
+    "is_r_sample",
+    "local_feature_size",
+    "medial_axis",
+    "minimum_spanning_tree",
+    "nn_crust",
     "one_step_crust",
+    "r_sample",
+    "rcgh",
     "read",
     "reconstruct",
+    "relative_neighborhood",
+    "sample_for_error",
+    "sampling_ratio",
+    "shapes",
+    "smooth",
+    "theory",
+    "thin",
     "trace",
     "write",
 ]

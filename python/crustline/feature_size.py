@@ -1,13 +1,15 @@
 """The local feature size LFS (paper, §5): the distance from a point of a curve to the medial axis.
 
-For a smooth curve it is computed here, from the definition. The medial axis is the closure of the centers of the
-maximal empty disks; each of them touches the curve at some q. So the axis is traced by walking q along the curve,
-and on each side of it the largest empty disk that touches the curve at q has the curvature
+For a smooth curve it is computed here, from the definition. The medial axis is the closure of the
+centers of the maximal empty disks; each of them touches the curve at some q. So the axis is traced
+by walking q along the curve, and on each side of it the largest empty disk that touches the curve
+at q has the curvature
 
     max over x on the curve of  2 n·(x − q) / |x − q|²,
 
-where n is the unit normal at q to that side; as x → q the fraction tends to the curve's own curvature, which gives the
-osculating disks. For samples of an unknown curve `crustline.medial` estimates it.
+where n is the unit normal at q to that side; as x → q the fraction tends to the curve's own
+curvature, which gives the osculating disks. For samples of an unknown curve `crustline.medial`
+estimates it.
 """
 
 from __future__ import annotations
@@ -15,7 +17,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -28,21 +29,23 @@ __all__ = ["CurveMedialAxis", "local_feature_size", "medial_axis_of_curve", "nea
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
 
-# The grid on which contacts are sought: its spacing over the radius of the smallest empty disk that touches there,
-# the smallest number of its nodes in a piece of a loop, and the largest number in all.
+# The grid on which contacts are sought: its spacing over the radius of the smallest empty disk that
+# touches there, the smallest number of its nodes in a piece of a loop, and the largest number in
+# all.
 RESOLUTION = 0.15
 NODES_PER_PIECE = 24
 NODES_PER_LOOP = 240
 MOST_NODES = 200_000
 MOST_ROUNDS = 40
 TERNARY_ROUNDS = 45
+POLISH_ROUNDS = 4
 # Matrices of distances are made in blocks of this many entries.
 BLOCK = 1 << 20
 
 
 @dataclass(frozen=True, eq=False)
 class CurveMedialAxis:
-    """The medial axis of a smooth curve, on both sides, as far as it matters to the curve's local feature size.
+    """The medial axis of a smooth curve, as far as its local feature size depends on it.
 
     Attributes
     ----------
@@ -51,15 +54,17 @@ class CurveMedialAxis:
     radii : ndarray of float64, shape (v,)
         The radii of those disks.
     segments : ndarray of int64, shape (s, 2)
-        Rows of `vertices` that follow one another along the axis. The axis between them is near the segment.
+        Rows of `vertices` that follow one another along the axis. The axis between them is near the
+        segment.
     error : float
-        Bound for the relative error of a distance from the curve to the vertices and segments; 0 if the axis is
-        known in closed form.
+        Bound for the relative error of a distance from the curve to the vertices and segments; 0 if
+        the axis is known in closed form.
 
     Notes
     -----
-    Parts of the axis whose disks are larger than half the extent of the curve are left out: no point of the curve
-    has its nearest point of the axis there. An interior disk gives each point a nearer one.
+    Parts of the axis whose disks are larger than half the extent of the curve are left
+    out: no point of the curve has its nearest point of the axis there. An interior disk gives each
+    point a nearer one.
     """
 
     vertices: FloatArray
@@ -72,7 +77,8 @@ class CurveMedialAxis:
         p = np.asarray(points, dtype=np.float64).reshape(-1, 2)
         distance, vertex = nearest_site(p, self.vertices)
         for column in range(2):
-            # A vertex begins at most one segment and ends at most one: the two that its walk along the curve links.
+            # A vertex begins at most one segment and ends at most one: the two that its walk along
+            # the curve links.
             link = np.full(len(self.vertices), -1)
             link[self.segments[:, column]] = self.segments[:, 1 - column]
             other = link[vertex]
@@ -111,9 +117,10 @@ def local_feature_size(
 
     Notes
     -----
-    For a curve: exact up to rounding for one circle, ellipse or stadium, whose medial axes are known; otherwise within `rtol`, see
-    `medial_axis_of_curve`. It is 1-Lipschitz in the distance (but not differentiable), never larger than the radius of
-    curvature, and scales with the curve. For samples: an estimate, see `crustline.medial.feature_size_of_samples`.
+    For a curve: exact up to rounding for one circle, ellipse or stadium, whose medial
+    axes are known; otherwise within `rtol`, see `medial_axis_of_curve`. It is 1-Lipschitz in the
+    distance (but not differentiable), never larger than the radius of curvature, and scales with
+    the curve. For samples: an estimate, see `crustline.medial.feature_size_of_samples`.
 
     References
     ----------
@@ -132,21 +139,19 @@ def local_feature_size(
         return axis.distance(curve_or_points.point(t)).reshape(t.shape)
     from crustline.medial import feature_size_of_samples
 
-    return cast(
-        FloatArray, feature_size_of_samples(cast(Any, curve_or_points), cast(Any, t_or_edges))
-    )
+    return feature_size_of_samples(curve_or_points, t_or_edges)
 
 
 @lru_cache(maxsize=128)
 def medial_axis_of_curve(curve: SmoothCurve, *, rtol: float = 1e-4) -> CurveMedialAxis:
-    """Return the medial axis of a smooth curve, accurate enough for its local feature size within rtol.
+    """Return the medial axis of a smooth curve, for its local feature size within rtol.
 
     Parameters
     ----------
     curve : SmoothCurve
         All its components count: the axis runs between them, too.
     rtol : float
-        In [1e-8, 0.1]. Bound for the relative error of the distance from the curve to the axis.
+        In [1e-6, 0.1]. Bound for the relative error of the distance from the curve to the axis.
 
     Raises
     ------
@@ -155,17 +160,19 @@ def medial_axis_of_curve(curve: SmoothCurve, *, rtol: float = 1e-4) -> CurveMedi
 
     Notes
     -----
-    A single circle, ellipse or stadium has its axis in closed form. Otherwise the axis is traced by vertices no
-    farther apart than √(8 rtol) times the radii of their disks. The nearest point of the axis to a point of the curve is
-    at least that radius away and the line to it is perpendicular to the axis (or it is an end of the axis, where
-    vertices crowd), so the nearest vertex is within a factor 1 + rtol as long as the axis between two vertices stays
-    within the disk on the segment between them; the segments make the error smaller still, in general by more
-    than ten times. Features narrower than about 10⁻⁵ of the length of their loop may be missed.
+    A single circle, ellipse or stadium has its axis in closed form. Otherwise the axis
+    is traced by vertices no farther apart than √(8 rtol) times the radii of their disks. The
+    nearest point of the axis to a point of the curve is at least that radius away and the line to
+    it is perpendicular to the axis (or it is an end of the axis, where vertices crowd), so the
+    nearest vertex is within a factor 1 + rtol as long as the axis between two vertices stays within
+    the disk on the segment between them; the segments make the error smaller still, in general by
+    more than ten times. Features narrower than about 10⁻⁵ of the length of their loop may be
+    missed.
 
     The axis is kept for the next call with the same curve.
     """
-    if not 1e-8 <= rtol <= 0.1:
-        raise InputError(f"rtol must be in [1e-8, 0.1], not {rtol}")
+    if not 1e-6 <= rtol <= 0.1:
+        raise InputError(f"rtol must be in [1e-6, 0.1], not {rtol}")
     if len(curve.loops) == 1 and curve.loops[0].axis is not None:
         return _known_axis(curve, curve.loops[0].axis)
     grid = _contact_grid(curve)
@@ -180,7 +187,7 @@ def _known_axis(curve: SmoothCurve, ends: FloatArray) -> CurveMedialAxis:
 
 @dataclass(frozen=True, eq=False)
 class _Nodes:
-    """Points along the curve in the order of t, with what the search for empty disks needs to know of them."""
+    """Points along the curve in the order of t, for the search for empty disks."""
 
     curve: SmoothCurve
     t: FloatArray
@@ -243,7 +250,7 @@ def _first_nodes(curve: SmoothCurve) -> FloatArray:
 
 
 def _curvature_peaks(grid: _Nodes) -> FloatArray:
-    """Return t of the local extrema of the curvature: there the axis ends, and turns back on itself."""
+    """Return t of the local extrema of the curvature, where the axis ends and turns back."""
     before = np.empty_like(grid.following)
     before[grid.following] = np.arange(len(before))
     rows, signs = [], []
@@ -257,14 +264,16 @@ def _curvature_peaks(grid: _Nodes) -> FloatArray:
     low, high = -steps[before[j]], steps[j]
     for _ in range(TERNARY_ROUNDS):
         third = (high - low) / 3
-        k = [sign_of * grid.curve.curvature(grid.near(j, x)) for x in (low + third, high - third)]
-        rising = k[0] < k[1]
+        bend = [
+            sign_of * grid.curve.curvature(grid.near(j, x)) for x in (low + third, high - third)
+        ]
+        rising = bend[0] < bend[1]
         low, high = np.where(rising, low + third, low), np.where(rising, high, high - third)
     return grid.near(j, (low + high) / 2)
 
 
 def _traced(curve: SmoothCurve, grid: _Nodes, gap: float) -> tuple[_Nodes, FloatArray]:
-    """Return nodes and the curvatures (2, k) of their disks, whose centers are at most gap radii apart."""
+    """Return nodes and curvatures (2, k) of their disks, centers at most gap radii apart."""
     nodes, disks = grid, _empty_disks(grid, grid)
     for _ in range(MOST_ROUNDS):
         wide = np.flatnonzero(
@@ -282,18 +291,19 @@ def _traced(curve: SmoothCurve, grid: _Nodes, gap: float) -> tuple[_Nodes, Float
 
 
 def _far_apart(nodes: _Nodes, disks: FloatArray, side: int, gap: float) -> npt.NDArray[np.bool_]:
-    """Return whether the axis between a node's center and the following one's needs another vertex."""
+    """Return whether the axis between a center and the following one needs a vertex."""
     center, radius = _centers(nodes, disks, side)
     step = np.hypot(*(center[nodes.following] - center).T)
     least = np.minimum(radius, radius[nodes.following])
     one = np.isfinite(radius) ^ np.isfinite(radius[nodes.following])
     both = np.isfinite(radius + radius[nodes.following])
-    # A disk beyond half the extent matters to no point, so where the axis runs off its end may stay rough.
+    # A disk beyond half the extent matters to no point, so where the axis runs off its end may stay
+    # rough.
     return np.asarray((both & (step > gap * least)) | (one & (least < 0.6 * nodes.extent())))
 
 
 def _centers(nodes: _Nodes, disks: FloatArray, side: int) -> tuple[FloatArray, FloatArray]:
-    """Return the centers on one side and their radii, infinite where a disk is too large to matter."""
+    """Return centers on one side and radii, infinite where a disk is too large to matter."""
     matters = disks * nodes.extent() > 1
     radius = np.where(matters, 1 / np.where(matters, disks, 1.0), np.inf)
     reach = np.where(matters, side * radius, 0.0)
@@ -318,7 +328,7 @@ def _linked(traced: tuple[_Nodes, FloatArray], rtol: float) -> CurveMedialAxis:
 
 
 def _empty_disks(nodes: _Nodes, grid: _Nodes) -> FloatArray:
-    """Return the curvature of the largest empty disk at each node, on its left and on its right, shape (2, k)."""
+    """Return the curvature of the largest empty disk at each node, left and right, (2, k)."""
     # Where the curvature jumps, the osculating disks of both sides count.
     every = np.arange(len(nodes.t))
     beside = [
@@ -326,18 +336,25 @@ def _empty_disks(nodes: _Nodes, grid: _Nodes) -> FloatArray:
     ]
     either = np.stack([nodes.curvature, *beside])
     out = np.stack([either.max(axis=0), -either.min(axis=0)])
+    # Just beside a jump the tightest circle passes a point at some small distance, of any order of
+    # magnitude.
+    scales = 0.5 ** np.arange(6, 26) / len(nodes.curve.loops)
+    offsets = np.concatenate([-scales, scales])
     rows = max(1, BLOCK // len(grid.t))
     for start in range(0, len(nodes.t), rows):
         block = slice(start, start + rows)
-        g = _touching(nodes, grid.point[None], block)
+        own = np.arange(len(nodes.t))[block]
+        around = nodes.curve.point(nodes.near(own, np.tile(offsets, (len(own), 1))))
+        g, close = (_touching(nodes, x, block) for x in (grid.point[None], around))
         for side, sign in enumerate((1.0, -1.0)):
             best = _best_contacts(nodes, grid, sign * g, sign, block)
+            best = np.maximum(best, (sign * close).max(axis=1))
             out[side, block] = np.maximum(out[side, block], best)
     return out
 
 
 def _touching(nodes: _Nodes, x: FloatArray, rows: slice) -> FloatArray:
-    """Return the signed curvature of the circle that touches the curve at a node and passes through x (r, k, 2)."""
+    """Return the signed curvature of the circles that touch at nodes and pass x (r, k, 2)."""
     d = x - nodes.point[rows, None]
     square = d[..., 0] ** 2 + d[..., 1] ** 2
     normal, curvature = nodes.normal[rows, None], nodes.curvature[rows, None]
@@ -351,7 +368,7 @@ def _touching(nodes: _Nodes, x: FloatArray, rows: slice) -> FloatArray:
 def _best_contacts(
     nodes: _Nodes, grid: _Nodes, g: FloatArray, sign: float, rows: slice
 ) -> FloatArray:
-    """Return the largest value of sign times the touching curvature, from its values g at the grid."""
+    """Return the largest touching curvature, from its signed values g at the grid."""
     before = np.empty_like(grid.following)
     before[grid.following] = np.arange(len(before))
     peaks = np.where((g >= g[:, before]) & (g >= g[:, grid.following]), g, -np.inf)
@@ -368,22 +385,30 @@ def _best_contacts(
 def _polished(
     nodes: _Nodes, grid: _Nodes, j: IntArray, before: IntArray, sign: float, rows: slice
 ) -> FloatArray:
-    """Return the top of the peak at grid nodes j, by two parabolas through three points each."""
-    steps, offset = grid.steps(), np.zeros(len(j))
+    """Return the top of the peak at grid nodes j.
+
+    Each round tries the top of the parabola through three points, and closes in on the best of the
+    four. Where the curvature jumps the peak is a kink, which no parabola finds: so there are
+    several rounds.
+    """
+    steps, best_at = grid.steps(), np.zeros(len(j))
     low, high = -steps[before], steps[j]
     best = np.full(len(j), -np.inf)
-    for _ in range(2):
-        x = np.stack([offset + low, offset, offset + high], -1)
+    every = np.arange(len(j))
+    for _ in range(POLISH_ROUNDS):
+        x = best_at[:, None] + np.stack([low, 0 * low, high], -1)
         f = sign * _touching(nodes, grid.curve.point(grid.near(j, x)), rows)
-        best = np.maximum(best, f.max(axis=1))
-        offset = offset + np.clip(_parabola_top(low, high, f), low, high)
-        low, high = (low - high) / 32, (high - low) / 32
-    f = sign * _touching(nodes, grid.curve.point(grid.near(j, offset[:, None])), rows)
-    return np.maximum(best, f[:, 0])
+        top = best_at + np.clip(_parabola_top(low, high, f), low, high)
+        g = sign * _touching(nodes, grid.curve.point(grid.near(j, top[:, None])), rows)
+        x, f = np.column_stack([x, top]), np.column_stack([f, g])
+        highest = np.argmax(f, axis=1)
+        best_at, best = x[every, highest], np.maximum(best, f[every, highest])
+        low, high = low / 4, high / 4
+    return best
 
 
 def _parabola_top(low: FloatArray, high: FloatArray, f: FloatArray) -> FloatArray:
-    """Return where the parabola through (low, f0), (0, f1), (high, f2) is highest; 0 if it is not."""
+    """Return where the parabola through (low, f0), (0, f1), (high, f2) is highest, or 0."""
     left, right = (f[:, 0] - f[:, 1]) / low, (f[:, 2] - f[:, 1]) / high
     bend = (right - left) / (high - low)
     down = bend < 0
@@ -421,12 +446,12 @@ def _touches_itself(point: FloatArray) -> InputError:
 
 
 def nearest_site(queries: FloatArray, sites: FloatArray) -> tuple[FloatArray, IntArray]:
-    """Return the distance from each of queries (k, 2) to the nearest of sites (n, 2), and that site's row.
+    """Return the distance from queries (k, 2) to the nearest of sites (n, 2), and its row.
 
     Notes
     -----
-    Exact up to rounding; of equally near sites, one. Sites are put into about √n boxes; only the boxes that may
-    hold the nearest site are searched, so the time is about k √n.
+    Exact up to rounding; of equally near sites, one. Sites are put into about √n boxes;
+    only the boxes that may hold the nearest site are searched, so the time is about k √n.
     """
     boxes = _boxes(sites)
     low = np.array([sites[box].min(axis=0) for box in boxes])

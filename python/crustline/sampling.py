@@ -1,7 +1,7 @@
-"""The paper's sampling condition (§5): samples S of a curve F, each point p of F within r · LFS(p) of one of them.
+"""The paper's sampling condition (§5): each point p of a curve within r · LFS(p) of a sample.
 
-`r_sample` makes such samples, `sampling_ratio` finds the smallest r of given ones, `thin` drops the samples that a
-reconstruction does not need, `sample_for_error` follows the note after Theorem 13.
+`r_sample` makes such samples, `sampling_ratio` finds the smallest r of given ones, `thin` drops the
+samples that a reconstruction does not need, `sample_for_error` follows the note after Theorem 13.
 """
 
 from __future__ import annotations
@@ -29,7 +29,8 @@ Mode = Literal["sparsest", "random"]
 
 # The paper's r for the crust (Theorem 15).
 GUARANTEED = 0.252
-# Steps are made shorter by this share, so that the proof by `sampling_ratio`, whose own error is 1e-4, goes through.
+# Steps are made shorter by this share, so that the proof by `sampling_ratio`, whose own error is
+# 1e-4, goes through.
 MARGIN = 3e-4
 # Random steps are at least this share of the longest step.
 SHORTEST_STEP = 0.5
@@ -47,7 +48,8 @@ class Sample:
     t : ndarray of float64, shape (n,)
         Where on the curve they are.
     edges : ndarray of int64, shape (n, 2)
-        The polygonal reconstruction (paper, §2): the pairs adjacent along the curve, i < j, rows sorted.
+        The polygonal reconstruction (paper, §2): the pairs adjacent along the curve, i < j, rows
+        sorted.
 
     Examples
     --------
@@ -79,13 +81,16 @@ def r_sample(
     curve : SmoothCurve
         What to sample; each of its loops gets samples.
     r : float
-        In (0, 1], the paper's range. Below 0.252 the crust of the samples is sure to reconstruct the curve.
+        In (0, 1], the paper's range. Below 0.252 the crust of the samples is sure to reconstruct
+        the curve.
     seed : int, optional
-        Seeds `numpy.random.default_rng`, which draws where each loop's first sample lies, and the random steps. With
-        None each loop starts at its t = 0, and random steps differ from call to call.
+        Seeds `numpy.random.default_rng`, which draws where each loop's first sample lies, and the
+        random steps. With None each loop starts at its t = 0, and random steps differ from call to
+        call.
     mode : {"sparsest", "random"}
-        "sparsest": each step along the curve is as long as the condition allows, and the last one of a loop
-        what is left. "random": each step is between half and the whole of that, uniformly.
+        "sparsest": each step along the curve is as long as the condition allows, and the last one
+        of a loop what is left. "random": each step is between half and the whole of that,
+        uniformly.
 
     Returns
     -------
@@ -99,10 +104,10 @@ def r_sample(
 
     Notes
     -----
-    The result is proven against the definition over the whole curve, not only at the samples:
-    `sampling_ratio(curve, sample) <= r` holds. Steps are up to 0.03 % shorter than the longest possible for that. The
-    sparsest sample of a loop has at most one point more than any in which each point of the loop is served by one of its two
-    neighbors along the loop.
+    The result is proven against the definition over the whole curve, not only at the
+    samples: `sampling_ratio(curve, sample) <= r` holds. Steps are up to 0.03 % shorter than the
+    longest possible for that. The sparsest sample of a loop has at most one point more than any in
+    which each point of the loop is served by one of its two neighbors along the loop.
 
     References
     ----------
@@ -113,7 +118,7 @@ def r_sample(
     --------
     >>> from crustline.shapes import ellipse
     >>> [len(r_sample(ellipse(2, 1), r)) for r in (0.2, 0.5, 1.0)]
-    [31, 13, 7]
+    [34, 14, 7]
     """
     _in_unit_range("r", r)
     return _sample(curve, lambda lfs: r * lfs, r, seed, mode)
@@ -134,10 +139,12 @@ def sample_for_error(
     curve : SmoothCurve
         What to sample.
     d : float
-        The largest distance allowed from a point of the curve to the reconstruction, in the units of the curve.
+        The largest distance allowed from a point of the curve to the reconstruction, in the units
+        of the curve.
     r : float
-        In (0, 1]. The samples are also an r-sample. The default is the r for which the paper proves that the crust
-        finds the reconstruction (Theorem 15); a larger one gives fewer samples where d is large.
+        In (0, 1]. The samples are also an r-sample. The default is the r for which the paper proves
+        that the crust finds the reconstruction (Theorem 15); a larger one gives fewer samples where
+        d is large.
     seed, mode
         As for `r_sample`.
 
@@ -153,8 +160,9 @@ def sample_for_error(
 
     Notes
     -----
-    The note after Theorem 13: a sample within √(2 d LFS(p)) of every point p keeps the reconstruction within d.
-    Where that is more than r · LFS(p), the latter holds. Proven over the whole curve, as for `r_sample`.
+    The note after Theorem 13: a sample within √(2 d LFS(p)) of every point p keeps the
+    reconstruction within d. Where that is more than r · LFS(p), the latter holds. Proven over the
+    whole curve, as for `r_sample`.
 
     Examples
     --------
@@ -169,7 +177,7 @@ def sample_for_error(
 
 
 def sampling_ratio(curve: SmoothCurve, points: npt.ArrayLike, *, rtol: float = 1e-4) -> float:
-    """Return the smallest r for which points r-sample the curve: the supremum of dist(p, points) / LFS(p).
+    """Return the smallest r for which points r-sample the curve: sup dist(p, S) / LFS(p).
 
     Parameters
     ----------
@@ -183,8 +191,9 @@ def sampling_ratio(curve: SmoothCurve, points: npt.ArrayLike, *, rtol: float = 1
     Returns
     -------
     r : float
-        At least the supremum, and at most 1 + rtol times it, but for the error of the local feature size, which
-        is computed with the same rtol (in closed form for one circle, ellipse or stadium).
+        At least the supremum, and at most 1 + rtol times it, but for the error of the local feature
+        size, which is computed with the same rtol (in closed form for one circle, ellipse or
+        stadium).
 
     Raises
     ------
@@ -193,15 +202,15 @@ def sampling_ratio(curve: SmoothCurve, points: npt.ArrayLike, *, rtol: float = 1
 
     Notes
     -----
-    Branch and bound: between two points of the curve an arc of length a apart the distance to the samples grows by
-    at most a, and the local feature size shrinks by at most a, since both are 1-Lipschitz. Arcs that could
-    still hold a larger ratio are halved.
+    Branch and bound: between two points of the curve an arc of length a apart the
+    distance to the samples grows by at most a, and the local feature size shrinks by at most a,
+    since both are 1-Lipschitz. Arcs that could still hold a larger ratio are halved.
 
     Examples
     --------
     >>> from crustline.shapes import circle, regular_polygon
-    >>> sampling_ratio(circle(), regular_polygon(6)), 2 * np.sin(np.pi / 12)
-    (0.5176..., 0.5176...)
+    >>> round(sampling_ratio(circle(), regular_polygon(6)), 3), round(2 * math.sin(math.pi / 12), 3)
+    (0.518, 0.518)
     """
     sites = as_points(points)
     if not len(sites):
@@ -220,7 +229,8 @@ def is_r_sample(curve: SmoothCurve, points: npt.ArrayLike, r: float) -> bool:
     Examples
     --------
     >>> from crustline.shapes import circle, regular_polygon
-    >>> is_r_sample(circle(), regular_polygon(6), 0.52), is_r_sample(circle(), regular_polygon(6), 0.51)
+    >>> hexagon = regular_polygon(6)
+    >>> is_r_sample(circle(), hexagon, 0.52), is_r_sample(circle(), hexagon, 0.51)
     (True, False)
     """
     return sampling_ratio(curve, points) <= r
@@ -236,13 +246,14 @@ def thin(points: npt.ArrayLike, edges: npt.ArrayLike, r: float) -> IntArray:
     edges : array_like of int, shape (m, 2)
         Their reconstruction, for instance their crust.
     r : float
-        In (0, 1]. For r = 0.2 the crust of what is kept is in general the same curve, drawn with fewer points.
+        In (0, 1]. For r = 0.2 the crust of what is kept is in general the same curve, drawn with
+        fewer points.
 
     Returns
     -------
     kept : ndarray of int64, shape (k,)
-        Rows of `points`, sorted. Isolated points, endpoints and branches are always kept, and at least three points
-        of each ring.
+        Rows of `points`, sorted. Isolated points, endpoints and branches are always kept, and at
+        least three points of each ring.
 
     Raises
     ------
@@ -251,21 +262,24 @@ def thin(points: npt.ArrayLike, edges: npt.ArrayLike, r: float) -> IntArray:
 
     Notes
     -----
-    Every point p of the edges has a kept point within r · LFS(p), one of the two next to p along its curve; between the samples
-    LFS is taken as low as a 1-Lipschitz function can be. Where the samples themselves are not dense enough for
-    that, all of them are kept. Of all choices with that property, one of the fewest, except on rings that r would
-    leave with less than three points. LFS is that of the reconstruction, estimated from the samples
-    (`local_feature_size(points, edges)`), not that of the unknown curve. O(n w) time, w the longest step in samples.
+    Every point p of the edges has a kept point within r · LFS(p), one of the two next
+    to p along its curve; between the samples LFS is taken as low as a 1-Lipschitz function can be,
+    and the distance to a kept point as large as a convex one.
+    Where the samples themselves are not dense enough for that, all of them are kept. Of all choices
+    with that property, one of the fewest, except on rings that r would leave with less than three
+    points. LFS is that of the reconstruction, estimated from the samples
+    (`local_feature_size(points, edges)`), not that of the unknown curve. O(n w) time, w the longest
+    step in samples.
 
     Examples
     --------
-    A circle of a hundred points needs thirteen for r = 0.25:
+    A circle of a hundred points needs fifteen of them for r = 0.25:
 
     >>> from crustline import crust
     >>> from crustline.shapes import regular_polygon
     >>> points = regular_polygon(100)
     >>> len(thin(points, crust(points), 0.25))
-    13
+    15
     """
     from crustline.curves import trace
 
@@ -295,7 +309,7 @@ def _in_unit_range(name: str, value: float) -> None:
 def _sample(
     curve: SmoothCurve, allowance: Allowance, r: float, seed: int | None, mode: Mode
 ) -> Sample:
-    """Return a sample with one point within allowance(LFS(p)), an r-Lipschitz function, of each p."""
+    """Return a sample with a point within allowance(LFS(p)), r-Lipschitz, of each p."""
     if mode not in ("sparsest", "random"):
         raise InputError(f'mode must be "sparsest" or "random", not {mode!r}')
     walks = [_Walk(table) for table in _tables(curve, allowance)]
@@ -330,7 +344,7 @@ T, X, Y, VX, VY, A = range(6)
 
 
 def _tables(curve: SmoothCurve, allowance: Allowance) -> list[FloatArray]:
-    """Return for each loop rows so close that they can be interpolated, shape (k, 6); the first row comes again last."""
+    """Return for each loop rows (k, 6) so close that they can be interpolated; it closes."""
     axis, c = medial_axis_of_curve(curve), len(curve.loops)
 
     def rows(i: int, u: FloatArray) -> FloatArray:
@@ -388,7 +402,7 @@ class _Walk:
         return np.array(samples) % 1.0
 
     def _served(self, u: float, share: float) -> float:
-        """Return the first point after the sample at u that is too far from it for its own allowance."""
+        """Return the first point after the sample at u that is too far from it."""
         x, y, _ = self._at(u)
 
         def excess(v: float) -> float:
@@ -415,7 +429,7 @@ class _Walk:
     def _first(
         self, u: float, excess: Callable[[float], float], at_row: Callable[[int], float]
     ) -> float:
-        """Return the first v after u where excess turns positive: sought at the rows, then by bisection."""
+        """Return the first v after u where excess turns positive: at the rows, then between."""
         t = self.columns[T]
         k = bisect_right(t, u)
         while k < len(t) and at_row(k) <= 0:
@@ -453,7 +467,7 @@ class _Walk:
 def _supremum(
     curve: SmoothCurve, sites: FloatArray, allowance: Allowance, lipschitz: float, rtol: float
 ) -> float:
-    """Return the supremum of dist(p, sites) / allowance(LFS(p)) over the curve, or up to 1 + rtol times it."""
+    """Return the supremum of dist(p, sites) / allowance(LFS(p)), or 1 + rtol times it."""
     axis = medial_axis_of_curve(curve, rtol=min(rtol, 1e-4))
 
     def measured(t: FloatArray) -> FloatArray:
@@ -481,7 +495,7 @@ def _supremum(
 def _arcs(
     curve: SmoothCurve, measured: Callable[[FloatArray], FloatArray]
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the measured ends of arcs that cover the curve, each shorter than a quarter of LFS at its ends."""
+    """Return the ends of arcs that cover the curve, each shorter than a quarter of LFS."""
     c = len(curve.loops)
     lefts, rights = [], []
     for i, loop in enumerate(curve.loops):
@@ -503,11 +517,12 @@ def _arcs(
 
 
 def _arc_bound(left: FloatArray, right: FloatArray, lipschitz: float) -> FloatArray:
-    """Return an upper bound for the ratio on each arc, from its ends (t, x, y, distance, allowance, LFS)."""
+    """Bound the ratio on arcs from their ends (t, x, y, distance, allowance, LFS)."""
     chord = np.hypot(*(left - right)[:, 1:3].T)
     lfs = np.minimum(left[:, 5], right[:, 5])
-    # The radius of curvature is at least LFS, which on the arc is at least 2/3 of that at its ends: so the arc is no
-    # longer than that of a circle of that radius on the same chord, 2 R asin(chord / 2R) ≤ chord (1 + chord² / 20 R²).
+    # The radius of curvature is at least LFS, which on the arc is at least 2/3 of that at its ends:
+    # so the arc is no longer than that of a circle of that radius on the same chord, 2 R asin(chord
+    # / 2R) ≤ chord (1 + chord² / 20 R²).
     arc = chord * (1 + 0.12 * (chord / lfs) ** 2)
     distance = (left[:, 3] + right[:, 3] + arc) / 2
     least = (left[:, 4] + right[:, 4] - lipschitz * arc) / 2
@@ -545,15 +560,15 @@ def _chain(following: list[int], start: int, end: int) -> IntArray:
     return np.array([*chain, end], dtype=np.int64)
 
 
-def _farthest(reach: FloatArray, need: FloatArray) -> IntArray:
-    """Return for each position i the largest j > i with need[j] ≤ reach[i]: i and j serve all between them."""
+def _farthest(reach: npt.NDArray[Any], need: npt.NDArray[Any]) -> IntArray:
+    """Return for each i the largest j > i with need[j] ≤ reach[i]: they serve all between."""
     lowest = np.minimum.accumulate(need[::-1])[::-1]
     farthest = np.searchsorted(lowest, reach, side="right") - 1
     return np.maximum(farthest, np.arange(len(reach)) + 1).astype(np.int64)
 
 
 def _served_edges(points: FloatArray, lfs: FloatArray, r: float, closed: bool) -> FloatArray:
-    """Return how many of the edges ahead of each position are within its reach, the last one in part."""
+    """Return how many edges ahead of each position are within its reach, the last in part."""
     k = len(points)
     edges = np.hypot(*(np.roll(points, -1, axis=0) - points).T)
     served = np.zeros(k)
@@ -573,10 +588,10 @@ def _served_edges(points: FloatArray, lfs: FloatArray, r: float, closed: bool) -
 def _served_part(
     points: FloatArray, lfs: FloatArray, edges: FloatArray, r: float, i: IntArray, near: IntArray
 ) -> FloatArray:
-    """Return the share of the edge from `near` on whose points are within r · LFS of the samples i.
+    """Return the share of the edge after `near` that is within r · LFS of the samples i.
 
-    Along the edge the distance to a sample is convex, so at most linear between its ends; LFS falls from either end with
-    slope at most 1, so it is least where the two slopes meet.
+    Along the edge the distance to a sample is convex, so at most linear between its ends; LFS falls
+    from either end with slope at most 1, so it is least where the two slopes meet.
     """
     far = (near + 1) % len(points)
     length = edges[near]

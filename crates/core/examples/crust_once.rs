@@ -42,6 +42,13 @@ fn curves(count: usize, random: &mut Scatter) -> Vec<Point> {
     points
 }
 
+/// Raw pairs of little-endian doubles.
+fn read(path: &str) -> Vec<Point> {
+    let bytes = std::fs::read(path).expect("a kind of points, or a file of raw doubles");
+    let number = |b: &[u8]| f64::from_le_bytes(b.try_into().expect("eight bytes"));
+    bytes.chunks_exact(16).map(|pair| [number(&pair[..8]), number(&pair[8..])]).collect()
+}
+
 fn points(kind: &str, count: usize) -> Vec<Point> {
     let mut random = Scatter(42);
     let side = (count as f64).sqrt().ceil();
@@ -53,7 +60,8 @@ fn points(kind: &str, count: usize) -> Vec<Point> {
         "line" => (0..count).map(|k| [k as f64, k as f64]).collect(),
         "parabola" => (0..count).map(|k| [k as f64, (k as f64).powi(2)]).collect(),
         "equal" => vec![[1.0, 2.0]; count],
-        _ => curves(count, &mut random),
+        "curves" => curves(count, &mut random),
+        path => read(path),
     }
 }
 

@@ -6,10 +6,16 @@
 //! no global state; parallel work runs on the current rayon pool and never changes an answer.
 
 pub mod adjacency;
+pub mod angle_bound;
+pub mod angle_pair;
+pub mod boxes;
+pub mod cocircular;
+pub mod constant;
 pub mod delaunay;
 pub mod edges;
 pub mod error;
 pub mod feature_size;
+pub mod forbidden_region;
 pub mod medial_axis;
 pub mod methods;
 pub mod pencil;

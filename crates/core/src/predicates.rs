@@ -5,7 +5,7 @@
 //! sections 4.3 and 4.4; the expansions are the crate `robust`'s. These are exact unless a product
 //! underflows, so coordinates that small take the integers of [`sign`](crate::sign) instead.
 
-use crate::point::{Point, dot, sub};
+use crate::point::{Point, cross, dot, sub};
 use crate::sign::{Form, Number, exact_sign, small_sign};
 use std::cmp::Ordering::{self, Greater};
 
@@ -50,6 +50,74 @@ pub fn in_circle(a: Point, b: Point, c: Point, d: Point) -> bool {
         return determinant > 0.0;
     }
     exact_in_circle(a, b, c, d)
+}
+
+/// The tests of many points against one directed base, a → b, with what they share computed once.
+///
+/// Everything is relative to a; the determinants, and so the bounds, are those of [`orientation`] and [`in_circle`].
+#[derive(Debug, Clone, Copy)]
+pub struct Base {
+    a: Point,
+    b: Point,
+    vector: Point,
+    lift: f64,
+}
+
+/// A point as a [`Base`] sees it.
+#[derive(Debug, Clone, Copy)]
+pub struct Sighting {
+    point: Point,
+    vector: Point,
+    lift: f64,
+    /// The cross product of the base and the vector, before its two products are subtracted.
+    products: [f64; 2],
+    turn: f64,
+}
+
+impl Base {
+    /// The base from `a` to `b`.
+    #[inline]
+    #[must_use]
+    pub fn new(a: Point, b: Point) -> Self {
+        let vector = sub(b, a);
+        Self { a, b, vector, lift: dot(vector, vector) }
+    }
+
+    /// Look at `point`.
+    #[inline]
+    #[must_use]
+    pub fn sight(&self, point: Point) -> Sighting {
+        let vector = sub(point, self.a);
+        let products = [self.vector[0] * vector[1], self.vector[1] * vector[0]];
+        let turn = products[0] - products[1];
+        Sighting { point, vector, lift: dot(vector, vector), products, turn }
+    }
+
+    /// Is the point strictly to the left of the base?
+    #[inline]
+    #[must_use]
+    pub fn is_left(&self, c: &Sighting) -> bool {
+        let bound = ORIENT_BOUND * (c.products[0].abs() + c.products[1].abs()) + UNDERFLOW;
+        if c.turn.abs() > bound {
+            return c.turn > 0.0;
+        }
+        exact_orientation(self.a, self.b, c.point) == Greater
+    }
+
+    /// Is `d` strictly inside the circle through the base and `c`, which is to its left?
+    #[inline]
+    #[must_use]
+    pub fn in_circle(&self, c: &Sighting, d: &Sighting) -> bool {
+        let across = cross(c.vector, d.vector);
+        let determinant = c.lift * d.turn - d.lift * c.turn - self.lift * across;
+        // Of two products in a minor the sizes sum to no more than the root of the product of two lifts, which is no more
+        // than their mean: this bounds Shewchuk's permanent at a third of its cost.
+        let permanent = self.lift * (c.lift + d.lift) + c.lift * d.lift;
+        if determinant.abs() > IN_CIRCLE_BOUND * 1.001 * permanent + UNDERFLOW {
+            return determinant > 0.0;
+        }
+        exact_in_circle(self.a, self.b, c.point, d.point)
+    }
 }
 
 /// Are the products of this coordinate safe from underflow and overflow in expansions?

@@ -6,6 +6,7 @@ use crate::point::{Point, lexicographic};
 use crate::predicates::orientation;
 use crate::progress::{Progress, Stage};
 use std::cmp::Ordering::{Equal, Greater, Less};
+use std::collections::HashMap;
 
 /// Curves as runs of rows, one after another.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -16,7 +17,7 @@ pub struct Curves {
     pub offsets: Vec<usize>,
     /// Is curve k a ring?
     pub closed: Vec<bool>,
-    /// The rows without an edge, ascending.
+    /// The points without an edge, each as its first row, ascending.
     pub isolated: Vec<u32>,
 }
 
@@ -49,7 +50,7 @@ pub fn trace(points: &[Point], edges: &Edges, progress: &Progress) -> Result<Cur
         let indices = &mut curves.indices[curves.offsets[k]..curves.offsets[k + 1]];
         if closed { orient_ring(points, indices) } else { orient_polyline(indices) }
     }
-    curves.isolated = rows.filter(|&row| graph.degree(row) == 0).collect();
+    curves.isolated = isolated(points, &graph);
     Ok(curves.sorted())
 }
 
@@ -129,6 +130,24 @@ impl Walk<'_> {
         self.curves.offsets.push(self.curves.indices.len());
         self.curves.closed.push(closed);
     }
+}
+
+/// The points without an edge: a repeated row counts as its point, so it is not isolated if that has edges.
+fn isolated(points: &[Point], graph: &Incidence) -> Vec<u32> {
+    // Adding 0.0 makes one of the two zeros.
+    let key = |row: u32| points[row as usize].map(|x| (x + 0.0).to_bits());
+    let (lone, joined): (Vec<u32>, Vec<u32>) =
+        (0..points.len() as u32).partition(|&row| graph.degree(row) == 0);
+    let mut first = HashMap::new();
+    for &row in &lone {
+        first.entry(key(row)).or_insert(row);
+    }
+    for row in joined.into_iter().filter(|_| !lone.is_empty()) {
+        first.remove(&key(row));
+    }
+    let mut rows: Vec<u32> = first.into_values().collect();
+    rows.sort_unstable();
+    rows
 }
 
 fn orient_polyline(indices: &mut [u32]) {

@@ -17,11 +17,14 @@ mod _core {
     #[pymodule_export]
     use crate::delaunay::Delaunay;
     #[pymodule_export]
-    use crate::methods::{crust, one_step_crust};
-    #[pymodule_export]
     use crate::feature_size::feature_size;
     #[pymodule_export]
     use crate::medial_axis::medial_axis;
+    #[pymodule_export]
+    use crate::methods::{
+        a_shape, alpha_shape, beta_skeleton, crossing_angle_graph, crust, gabriel, gamma_graph,
+        minimum_spanning_tree, nn_crust, one_step_crust, rcgh, relative_neighborhood,
+    };
     #[pymodule_export]
     use crate::trace::trace;
     use pyo3::prelude::*;

@@ -38,23 +38,25 @@ pub struct Rings<'a> {
     free: FreeSlots,
 }
 
-/// The slots not in use: chains of those used before, and ranges of those never used.
-#[derive(Debug, Default)]
+/// The slots not in use: a chain of those used before, and a range of those never used.
+#[derive(Debug)]
 pub struct FreeSlots {
-    chains: Vec<u32>,
-    fresh: Vec<std::ops::Range<u32>>,
+    chain: u32,
+    fresh: std::ops::Range<u32>,
+    /// What else there is, from joining neighbors.
+    more: Vec<(u32, std::ops::Range<u32>)>,
 }
 
 impl FreeSlots {
     /// All of `range`, never used.
     pub fn fresh(range: std::ops::Range<u32>) -> Self {
-        Self { chains: Vec::new(), fresh: vec![range] }
+        Self { chain: NONE, fresh: range, more: Vec::new() }
     }
 
     /// The free slots of two neighboring graphs.
     pub fn join(mut self, other: Self) -> Self {
-        self.chains.extend(other.chains);
-        self.fresh.extend(other.fresh);
+        self.more.push((other.chain, other.fresh));
+        self.more.extend(other.more);
         self
     }
 }
@@ -116,35 +118,27 @@ impl<'a> Rings<'a> {
         self.next(e ^ 1)
     }
 
-    /// Add the edge from `a` to `b`, not yet in the rings of other edges; return the half-edge a → b.
+    /// Add the edge from `a` to `b`, right before (clockwise) `before` in the ring of a, and right after `after` in the ring of b;
+    /// `NONE` where the ring is empty. Return the half-edge a → b.
     #[inline]
-    pub fn add(&mut self, a: u32, b: u32) -> u32 {
+    pub fn add(&mut self, a: u32, b: u32, before: u32, after: u32) -> u32 {
         let e = self.take_slot();
-        *self.slot_mut(e) = HalfEdge { origin: a, next: e, prev: e };
-        *self.slot_mut(e ^ 1) = HalfEdge { origin: b, next: e ^ 1, prev: e ^ 1 };
+        let twin = e ^ 1;
+        let prev = if before == NONE { e } else { self.prev(before) };
+        let next = if after == NONE { twin } else { self.next(after) };
+        *self.slot_mut(e) =
+            HalfEdge { origin: a, next: if before == NONE { e } else { before }, prev };
+        *self.slot_mut(twin) =
+            HalfEdge { origin: b, next, prev: if after == NONE { twin } else { after } };
+        self.slot_mut(prev).next = e;
+        self.slot_mut(next).prev = twin;
+        if before != NONE {
+            self.slot_mut(before).prev = e;
+        }
+        if after != NONE {
+            self.slot_mut(after).next = twin;
+        }
         e
-    }
-
-    /// Put the lone half-edge `e` right before `at`, clockwise, in the ring of their origin.
-    #[inline]
-    pub fn insert_before(&mut self, e: u32, at: u32) {
-        let before = self.prev(at);
-        self.insert_between(before, e, at);
-    }
-
-    /// Put the lone half-edge `e` right after `at`, counter-clockwise, in the ring of their origin.
-    #[inline]
-    pub fn insert_after(&mut self, e: u32, at: u32) {
-        let after = self.next(at);
-        self.insert_between(at, e, after);
-    }
-
-    #[inline]
-    fn insert_between(&mut self, before: u32, e: u32, after: u32) {
-        self.slot_mut(before).next = e;
-        self.slot_mut(after).prev = e;
-        let slot = self.slot_mut(e);
-        (slot.prev, slot.next) = (before, after);
     }
 
     /// Take the edge of `e` out of both rings and free its slots.
@@ -157,30 +151,26 @@ impl<'a> Rings<'a> {
             self.slot_mut(half).origin = NONE;
         }
         let even = e & !1;
-        if self.free.chains.is_empty() {
-            self.free.chains.push(NONE);
-        }
-        let head = self.free.chains.last_mut().expect("there is one now");
-        self.slots[(even - self.first) as usize].next = std::mem::replace(head, even);
+        let chain = std::mem::replace(&mut self.free.chain, even);
+        self.slot_mut(even).next = chain;
     }
 
     /// A planar graph on k vertices has at most 3k − 6 edges, so there is always a slot.
     #[inline]
     fn take_slot(&mut self) -> u32 {
-        while let Some(head) = self.free.chains.last_mut() {
-            let e = *head;
+        loop {
+            let e = self.free.chain;
             if e != NONE {
-                *head = self.slots[(e - self.first) as usize].next;
+                self.free.chain = self.slot(e).next;
                 return e;
             }
-            self.free.chains.pop();
+            if let Some(e) = self.free.fresh.next() {
+                // A pair of half-edges.
+                self.free.fresh.next();
+                return e;
+            }
+            let more = self.free.more.pop();
+            (self.free.chain, self.free.fresh) = more.expect("a planar graph fits in its slots");
         }
-        let range = self.free.fresh.last_mut().expect("a planar graph fits in its slots");
-        let e = range.start;
-        range.start += 2;
-        if range.start == range.end {
-            self.free.fresh.pop();
-        }
-        e
     }
 }

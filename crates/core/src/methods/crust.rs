@@ -24,16 +24,61 @@ use std::collections::HashSet;
 /// A cancelled `progress`.
 pub fn crust(delaunay: &Delaunay, progress: &Progress) -> Result<Edges> {
     select(delaunay, progress, Visit::default, |visit, edge| {
-        one_step_crust::is_in(delaunay, edge)
-            && (smallest_disk_is_empty(delaunay, edge) || search(delaunay, edge, visit))
+        one_step_crust::is_in(delaunay, edge) && has_empty_disk(delaunay, edge, visit)
     })
+}
+
+/// Look for a disk, the smallest first; each Voronoi vertex found inside rules out a part of the pencil.
+#[inline]
+fn has_empty_disk(delaunay: &Delaunay, edge: Edge, visit: &mut Visit) -> bool {
+    let apexes = [edge.left, edge.right].into_iter().flatten();
+    if apexes.into_iter().any(|apex| is_above_45(delaunay, edge, apex)) {
+        return search(delaunay, edge, None, visit);
+    }
+    if smallest_disk_is_in_cells(delaunay, edge) {
+        return true;
+    }
+    let pencil = Pencil::new(delaunay.point(edge.p), delaunay.point(edge.q));
+    let found = visit.find(delaunay, edge, &pencil, Circle::Smallest);
+    found.is_none() || search(delaunay, edge, found, visit)
+}
+
+/// Is the angle opposite to the edge about 45° or more? Then the center of that triangle is inside the smallest disk.
+#[inline]
+fn is_above_45(delaunay: &Delaunay, edge: Edge, apex: u32) -> bool {
+    let apex = delaunay.point(apex);
+    let [u, v] = [edge.p, edge.q].map(|end| sub(delaunay.point(end), apex));
+    dot(u, v) < cross(u, v).abs()
+}
+
+/// The search in full, from the Voronoi vertex `found` in the smallest disk, if that was tried.
+fn search(delaunay: &Delaunay, edge: Edge, mut found: Option<Vertex>, visit: &mut Visit) -> bool {
+    let pencil = Pencil::new(delaunay.point(edge.p), delaunay.point(edge.q));
+    // The angles at the edge's own apexes are acute, so each center is on the side of its triangle.
+    let vertex = |corners: [u32; 3]| pencil.vertex(corners.map(|vertex| delaunay.point(vertex)));
+    let mut high = edge.left.map(|apex| vertex([edge.p, edge.q, apex]));
+    let mut low = edge.right.map(|apex| vertex([edge.q, edge.p, apex]));
+    loop {
+        match found.map(|vertex| pencil.side(&vertex)) {
+            None => {}
+            Some(Greater) => high = found,
+            Some(Less) => low = found,
+            // Between p and q, inside all disks.
+            Some(Equal) => return false,
+        }
+        let Some(circle) = pencil.smallest_between(low, high) else { return false };
+        found = visit.find(delaunay, edge, &pencil, circle);
+        if found.is_none() {
+            return true;
+        }
+    }
 }
 
 /// Does the disk with diameter p q lie in the Voronoi cells of p and q? Then no Voronoi vertex is inside.
 ///
 /// A quick test that settles most edges of a curve, and the ties of a lattice.
 #[inline]
-fn smallest_disk_is_empty(delaunay: &Delaunay, edge: Edge) -> bool {
+fn smallest_disk_is_in_cells(delaunay: &Delaunay, edge: Edge) -> bool {
     half_stays_in_cell(delaunay, edge.p, edge.q) && half_stays_in_cell(delaunay, edge.q, edge.p)
 }
 
@@ -99,32 +144,11 @@ impl Form<2> for RoomBehind {
     }
 }
 
-/// Look for a disk, the smallest first; each Voronoi vertex found inside rules out a part of the pencil.
-fn search(delaunay: &Delaunay, edge: Edge, visit: &mut Visit) -> bool {
-    let [p, q] = [edge.p, edge.q].map(|vertex| delaunay.point(vertex));
-    let pencil = Pencil::new(p, q);
-    // The angles at the edge's own apexes are acute, so each center is on the side of its triangle.
-    let vertex = |corners: [u32; 3]| pencil.vertex(corners.map(|vertex| delaunay.point(vertex)));
-    let mut high = edge.left.map(|apex| vertex([edge.p, edge.q, apex]));
-    let mut low = edge.right.map(|apex| vertex([edge.q, edge.p, apex]));
-    while let Some(circle) = pencil.smallest_between(low, high) {
-        let Some(found) = visit.find(delaunay, edge, &pencil, circle) else { return true };
-        match pencil.side(&found) {
-            Greater => high = Some(found),
-            Less => low = Some(found),
-            // Between p and q, inside all disks.
-            Equal => return false,
-        }
-    }
-    false
-}
-
 /// A walk over the Voronoi cells that meet a disk, and its memory.
 #[derive(Default)]
 struct Visit {
     cells: Vec<u32>,
     many: HashSet<u32>,
-    near: Vec<bool>,
 }
 
 /// Cells up to which a list is searched faster than a hash table.
@@ -150,7 +174,7 @@ impl Visit {
         while next < self.cells.len() {
             let cell = self.cells[next];
             let other = [edge.q, edge.p].get(next).map(|&end| delaunay.point(end));
-            let part = Part { disk: &disk, origin: pencil.p, site: delaunay.point(cell), other };
+            let part = Part::new(&disk, pencil.p, delaunay.point(cell), other);
             let found = self.search_cell(delaunay, cell, pencil, &part);
             if found.is_some() {
                 return found;
@@ -168,24 +192,22 @@ impl Visit {
         part: &Part<'_>,
     ) -> Option<Vertex> {
         let star = delaunay.star(cell);
-        let near = |&neighbor: &u32| part.may_reach(delaunay.point(neighbor));
-        self.near.clear();
-        self.near.extend(star.neighbors.iter().map(near));
-        for k in (0..star.neighbors.len()).filter(|&k| self.near[k]) {
-            let after = if k + 1 < star.neighbors.len() { k + 1 } else { 0 };
-            // A Voronoi vertex is on two bisectors of its cell, so both must meet the disk.
-            if let Some(next) = star.left(k).filter(|_| self.near[after]) {
-                let [a, b] = [star.neighbors[k], next].map(|vertex| delaunay.point(vertex));
-                let vertex = pencil.vertex([part.site, a, b]);
-                if pencil.holds(part.disk, &vertex) {
-                    return Some(vertex);
+        let Some(&last) = star.neighbors.last() else { return None };
+        let mut before = (last, !star.on_hull && part.may_reach(delaunay.point(last)));
+        for &neighbor in star.neighbors {
+            let point = delaunay.point(neighbor);
+            let is_near = part.may_reach(point);
+            if is_near {
+                self.add(neighbor);
+                // A Voronoi vertex is on two bisectors of its cell, so both must meet the disk.
+                if before.1 {
+                    let vertex = pencil.vertex([part.site, delaunay.point(before.0), point]);
+                    if pencil.holds(part.disk, &vertex) {
+                        return Some(vertex);
+                    }
                 }
             }
-        }
-        for k in 0..star.neighbors.len() {
-            if self.near[k] {
-                self.add(star.neighbors[k]);
-            }
+            before = (neighbor, is_near);
         }
         None
     }
@@ -208,37 +230,57 @@ impl Visit {
 /// The part of a disk that can be in the cell of `site`: all of it, or in the cells of p and q the nearer half.
 struct Part<'a> {
     disk: &'a Disk,
-    /// What the disk's center is relative to.
-    origin: Point,
     site: Point,
-    /// The other end of the edge, if `site` is one.
-    other: Option<Point>,
+    /// The center relative to the site.
+    center: Point,
+    /// More than the rounding errors of the distances below.
+    doubt: f64,
+    half: Option<Half>,
 }
 
-impl Part<'_> {
+/// The half of a disk that is nearer to one end of the edge.
+struct Half {
+    /// The vector to the other end.
+    chord: Point,
+    /// The disk's radius over the length of the chord.
+    ratio: f64,
+}
+
+impl<'a> Part<'a> {
+    /// The part of `disk` in the cell of `site`; `other` is the other end of the edge, if `site` is one.
+    fn new(disk: &'a Disk, origin: Point, site: Point, other: Option<Point>) -> Self {
+        let center = sub(disk.center, sub(site, origin));
+        let size = center[0].abs() + center[1].abs() + disk.radius;
+        let half = other.map(|other| {
+            let chord = sub(other, site);
+            Half { chord, ratio: disk.radius / dot(chord, chord).sqrt() }
+        });
+        Self { disk, site, center, doubt: 1e-14 * size + 2.0 * disk.error, half }
+    }
+
     /// Can a point of this part be nearer to `neighbor` than to the site? False only if certainly none is.
     #[inline]
     fn may_reach(&self, neighbor: Point) -> bool {
         let g = sub(neighbor, self.site);
+        let span = g[0].abs() + g[1].abs();
         let far = dot(g, g);
-        let length = far.sqrt();
-        let center = sub(self.disk.center, sub(self.site, self.origin));
-        let size = center[0].abs() + center[1].abs() + self.disk.radius + length;
-        let doubt = (1e-14 * size + 2.0 * self.disk.error) * length;
-        let reach = dot(center, g) + self.disk.radius * self.width(g, length) + doubt;
+        let reach =
+            dot(self.center, g) + self.width(g, span, far) + (self.doubt + 1e-14 * span) * span;
         // An unknown (not a number) counts as reaching.
         reach.is_nan() || reach > far / 2.0
     }
 
-    /// How far this part of a disk of radius 1 reaches from the center in the direction of `g`, times its length.
+    /// How far this part reaches from the center in the direction of `g`, times the length of `g`.
     #[inline]
-    fn width(&self, g: Point, length: f64) -> f64 {
-        let Some(other) = self.other else { return length };
-        let d = sub(other, self.site);
-        // Where the direction is in doubt the whole disk serves, for it reaches no less.
-        if dot(d, g) <= 1e-14 * length * (d[0].abs() + d[1].abs()) {
-            return length;
+    fn width(&self, g: Point, span: f64, far: f64) -> f64 {
+        match self.half {
+            Some(Half { chord, ratio })
+                if dot(chord, g) > 1e-14 * span * (chord[0].abs() + chord[1].abs()) =>
+            {
+                ratio * cross(chord, g).abs()
+            }
+            // Where the direction is in doubt the whole disk serves, for it reaches no less.
+            _ => self.disk.radius * far.sqrt(),
         }
-        cross(d, g).abs() / dot(d, d).sqrt()
     }
 }

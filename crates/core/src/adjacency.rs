@@ -1,0 +1,86 @@
+//! Edges seen from the vertices of a triangulation: the neighbors of each vertex along the curve.
+
+use crate::delaunay::Delaunay;
+use crate::edges::{Edges, sort};
+
+/// The neighbors of every vertex along some edges.
+#[derive(Debug, Clone, Default)]
+pub struct Adjacency {
+    /// The edges as vertices: p < q in each, sorted, unique.
+    edges: Edges,
+    /// `ends[offsets[v]..offsets[v + 1]]` are the neighbors of v.
+    offsets: Vec<u32>,
+    /// Neighbor, and the number of the edge to it.
+    ends: Vec<(u32, u32)>,
+}
+
+impl Adjacency {
+    /// The neighbors along `edges`, canonical ones between input rows. A repeated row stands for the first of its kind.
+    #[must_use]
+    pub fn new(delaunay: &Delaunay, edges: &Edges) -> Self {
+        let vertex = vertices_of_rows(delaunay);
+        let mapped: Edges = edges
+            .iter()
+            .map(|edge| edge.map(|row| vertex[row as usize]))
+            .filter(|[p, q]| p != q)
+            .map(|[p, q]| [p.min(q), p.max(q)])
+            .collect();
+        let mut edges = sort(&[mapped], delaunay.points().len());
+        edges.dedup();
+        let (offsets, ends) = incidence(&edges, delaunay.points().len());
+        Self { edges, offsets, ends }
+    }
+
+    /// The edges as vertices: p < q in each, sorted, unique.
+    #[must_use]
+    pub fn edges(&self) -> &Edges {
+        &self.edges
+    }
+
+    /// The neighbors of `vertex`, each with the number of the edge to it.
+    #[inline]
+    #[must_use]
+    pub fn of(&self, vertex: u32) -> &[(u32, u32)] {
+        let v = vertex as usize;
+        &self.ends[self.offsets[v] as usize..self.offsets[v + 1] as usize]
+    }
+
+    /// The number of the edge between `p` and `q`, if there is one.
+    #[inline]
+    #[must_use]
+    pub fn edge(&self, p: u32, q: u32) -> Option<u32> {
+        self.of(p).iter().find(|&&(end, _)| end == q).map(|&(_, edge)| edge)
+    }
+}
+
+/// The vertex of each input row.
+#[must_use]
+pub fn vertices_of_rows(delaunay: &Delaunay) -> Vec<u32> {
+    let mut vertex = vec![0; delaunay.input_len()];
+    for (v, &row) in delaunay.rows().iter().enumerate() {
+        vertex[row as usize] = v as u32;
+    }
+    for &[row, first] in delaunay.duplicates() {
+        vertex[row as usize] = vertex[first as usize];
+    }
+    vertex
+}
+
+fn incidence(edges: &Edges, vertices: usize) -> (Vec<u32>, Vec<(u32, u32)>) {
+    let mut offsets = vec![0u32; vertices + 2];
+    for &vertex in edges.as_flattened() {
+        offsets[vertex as usize + 2] += 1;
+    }
+    for vertex in 1..=vertices {
+        offsets[vertex + 1] += offsets[vertex];
+    }
+    let mut ends = vec![(0, 0); 2 * edges.len()];
+    for (number, &[p, q]) in edges.iter().enumerate() {
+        for (from, to) in [(p, q), (q, p)] {
+            let slot = &mut offsets[from as usize + 1];
+            ends[*slot as usize] = (to, number as u32);
+            *slot += 1;
+        }
+    }
+    (offsets, ends)
+}

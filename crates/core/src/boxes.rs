@@ -1,0 +1,143 @@
+//! A hierarchy of boxes around the vertices, to find those in a region.
+//!
+//! The vertices lie along a space-filling curve, so those of successive numbers lie close together,
+//! and the tree needs no order of its own: a node is a range of vertices and their bounding box.
+
+use crate::point::{Point, sub};
+use std::ops::Range;
+
+/// Vertices in a leaf.
+const LEAF: usize = 8;
+/// Nodes under a node.
+const FAN: usize = 4;
+
+/// The hierarchy.
+#[derive(Debug)]
+pub struct Boxes {
+    vertices: u32,
+    /// The leaves first, a single root last; empty without vertices.
+    levels: Vec<Vec<Bounds>>,
+}
+
+/// A rectangle parallel to the axes.
+#[derive(Debug, Clone, Copy)]
+pub struct Bounds {
+    /// The smallest x and y.
+    pub low: Point,
+    /// The largest x and y.
+    pub high: Point,
+}
+
+impl Bounds {
+    const EMPTY: Self = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
+
+    fn join(self, other: Self) -> Self {
+        let pick = |f: fn(f64, f64) -> f64, a: Point, b: Point| [f(a[0], b[0]), f(a[1], b[1])];
+        Self {
+            low: pick(f64::min, self.low, other.low),
+            high: pick(f64::max, self.high, other.high),
+        }
+    }
+
+    /// The four corners.
+    #[must_use]
+    pub fn corners(&self) -> [Point; 4] {
+        let ([x, y], [z, w]) = (self.low, self.high);
+        [[x, y], [z, y], [z, w], [x, w]]
+    }
+
+    /// The same box, seen from `origin`.
+    #[must_use]
+    pub fn seen_from(&self, origin: Point) -> Self {
+        Self { low: sub(self.low, origin), high: sub(self.high, origin) }
+    }
+
+    /// May the box meet the disk around `center`? False only if they are certainly apart.
+    #[must_use]
+    pub fn may_meet_disk(&self, center: Point, radius: f64) -> bool {
+        let gap = |axis: usize| {
+            (self.low[axis] - center[axis]).max(center[axis] - self.high[axis]).max(0.0)
+        };
+        let slack = 1e-12 * (center[0].abs() + center[1].abs() + radius);
+        let (x, y, reach) = (gap(0), gap(1), radius + slack);
+        let is_apart = (x * x + y * y) * (1.0 - 1e-9) > reach * reach;
+        // An unknown (not a number) is not apart.
+        !is_apart
+    }
+}
+
+impl Boxes {
+    /// The boxes around `points`.
+    #[must_use]
+    pub fn new(points: &[Point]) -> Self {
+        let around = |points: &[Point]| {
+            points.iter().fold(Bounds::EMPTY, |b, &p| b.join(Bounds { low: p, high: p }))
+        };
+        let mut levels: Vec<Vec<Bounds>> = vec![points.chunks(LEAF).map(around).collect()];
+        while let Some(below) = levels.last().filter(|level| level.len() > 1) {
+            let join = |nodes: &[Bounds]| nodes.iter().fold(Bounds::EMPTY, |a, &b| a.join(b));
+            levels.push(below.chunks(FAN).map(join).collect());
+        }
+        Self { vertices: points.len() as u32, levels }
+    }
+
+    /// Visit the vertices of all boxes that `enter` admits, until `visit` gives true; was there
+    /// one?
+    ///
+    /// `enter` sees a box and the range of its vertices.
+    pub fn any(
+        &self,
+        enter: &mut impl FnMut(&Bounds, Range<u32>) -> bool,
+        visit: &mut impl FnMut(u32) -> bool,
+    ) -> bool {
+        self.vertices > 0 && self.any_below(self.levels.len() - 1, 0, enter, visit)
+    }
+
+    fn any_below(
+        &self,
+        level: usize,
+        node: usize,
+        enter: &mut impl FnMut(&Bounds, Range<u32>) -> bool,
+        visit: &mut impl FnMut(u32) -> bool,
+    ) -> bool {
+        let range = self.range(level, node);
+        if !enter(&self.levels[level][node], range.clone()) {
+            return false;
+        }
+        if level == 0 {
+            return range.into_iter().any(visit);
+        }
+        let end = (FAN * (node + 1)).min(self.levels[level - 1].len());
+        (FAN * node..end).any(|below| self.any_below(level - 1, below, enter, visit))
+    }
+
+    fn range(&self, level: usize, node: usize) -> Range<u32> {
+        let width = LEAF * FAN.pow(level as u32);
+        let end = (width * (node + 1)).min(self.vertices as usize);
+        (width * node) as u32..end as u32
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_vertex_is_visited_once_and_lies_in_all_its_boxes() {
+        for count in [0usize, 1, 8, 9, 33, 1000] {
+            let points: Vec<Point> = (0..count).map(|k| [(k * 7 % 31) as f64, k as f64]).collect();
+            let mut seen = Vec::new();
+            let inside =
+                |b: &Bounds, p: Point| (0..2).all(|a| b.low[a] <= p[a] && p[a] <= b.high[a]);
+            let found = Boxes::new(&points).any(
+                &mut |b, mut range| range.all(|k| inside(b, points[k as usize])),
+                &mut |k| {
+                    seen.push(k as usize);
+                    false
+                },
+            );
+            assert!(!found);
+            assert_eq!(seen, (0..count).collect::<Vec<_>>());
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! The closed Delaunay graph: all pairs that some disk touches with no point inside.
+//!
+//! It is the triangulation and, where four or more points lie on one empty circle, all the
+//! diagonals between them, not only those that the triangulation chose.
+
+use crate::delaunay::{Delaunay, Edge};
+use crate::edges::{Edges, rows, select, sort};
+use crate::error::Result;
+use crate::predicates::in_circle;
+use crate::progress::Progress;
+use rayon::prelude::*;
+
+/// The edges of the closed Delaunay graph that `keep` keeps, as rows.
+///
+/// # Errors
+/// A cancelled `progress`.
+pub fn select_closed(
+    delaunay: &Delaunay,
+    progress: &Progress,
+    keep: impl Fn(Edge) -> bool + Sync,
+) -> Result<Edges> {
+    let edges = select(delaunay, progress, || (), |(), edge| keep(edge))?;
+    let tied = diagonals(delaunay).into_par_iter().filter(|&edge| keep(edge));
+    let tied: Edges = tied.map(|edge| rows(delaunay, edge.p, edge.q)).collect();
+    progress.advance(0)?;
+    if tied.is_empty() {
+        return Ok(edges);
+    }
+    let mut closed = sort(&[edges, tied], delaunay.input_len());
+    closed.dedup();
+    Ok(closed)
+}
+
+/// The diagonals between points on one empty circle, those of the triangulation among them, sorted
+/// by p.
+///
+/// The apexes of such an edge are any two of the other points: all see it under the same angle, or
+/// 180° less that. The time and space is quadratic in the number of points on one circle.
+#[must_use]
+pub fn diagonals(delaunay: &Delaunay) -> Vec<Edge> {
+    let from = |p| {
+        let faces = delaunay.edges_from(p).filter_map(|edge| face(delaunay, edge));
+        faces.flat_map(|ring| diagonals_of(&ring))
+    };
+    let mut edges: Vec<Edge> =
+        (0..delaunay.points().len() as u32).into_par_iter().flat_map_iter(from).collect();
+    edges.sort_unstable_by_key(|edge| (edge.p, edge.q));
+    edges
+}
+
+/// The points on the empty circle around the triangles of `edge`, counter-clockwise.
+///
+/// Only if there are four or more and `edge` is the first of their diagonals in the triangulation.
+fn face(delaunay: &Delaunay, edge: Edge) -> Option<Vec<u32>> {
+    if !is_tied(delaunay, edge) {
+        return None;
+    }
+    let first = (edge.p, edge.q);
+    let mut ring = Vec::with_capacity(4);
+    // Half-edges with the face to their left as far as it is known.
+    let mut open = vec![(edge.q, edge.p), (edge.p, edge.q)];
+    while let Some((u, v)) = open.pop() {
+        let across = between(delaunay, u, v);
+        match across.right {
+            Some(_) if (u.min(v), u.max(v)) < first && is_tied(delaunay, across) => return None,
+            Some(apex) if is_tied(delaunay, across) => open.extend([(apex, v), (u, apex)]),
+            _ => ring.push(u),
+        }
+    }
+    Some(ring)
+}
+
+/// Do the apexes of `edge` lie on one circle with it?
+fn is_tied(delaunay: &Delaunay, edge: Edge) -> bool {
+    let (Some(left), Some(right)) = (edge.left, edge.right) else {
+        return false;
+    };
+    let [p, q, left, right] = [edge.p, edge.q, left, right].map(|vertex| delaunay.point(vertex));
+    // The right apex is never inside the circle, and the clockwise order makes the test one for
+    // outside.
+    !in_circle(q, p, left, right)
+}
+
+/// The half-edge u → v and its apexes.
+fn between(delaunay: &Delaunay, u: u32, v: u32) -> Edge {
+    let star = delaunay.star(u);
+    let k = star.neighbors.iter().position(|&neighbor| neighbor == v);
+    let k = k.expect("u and v are two corners of a triangle");
+    Edge { p: u, q: v, left: star.left(k), right: star.right(k) }
+}
+
+fn diagonals_of(ring: &[u32]) -> Vec<Edge> {
+    let count = ring.len();
+    let mut edges = Vec::with_capacity(count * (count - 3) / 2);
+    for i in 0..count - 2 {
+        // The first and the last point are neighbors on the circle.
+        for j in i + 2..count.min(count - 1 + i) {
+            let (right, left) = (Some(ring[i + 1]), Some(ring[(j + 1) % count]));
+            edges.push(if ring[i] < ring[j] {
+                Edge { p: ring[i], q: ring[j], left, right }
+            } else {
+                Edge { p: ring[j], q: ring[i], left: right, right: left }
+            });
+        }
+    }
+    edges
+}

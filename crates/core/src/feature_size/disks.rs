@@ -1,0 +1,147 @@
+//! The largest empty disk that touches the curve at a sample, on each side: its center is on the medial axis.
+//!
+//! A disk that touches at s with its center at s + ρ·n passes through x if 1/ρ = 2 n·(x − s)/|x − s|², so the largest empty
+//! one has as its curvature the maximum of that over the curve; as x → s the fraction tends to the curve's own curvature.
+//! A disk around a point of the Voronoi cell of s is empty, so only the neighbors of s in the triangulation count.
+
+use super::interpolant::Bend;
+use crate::delaunay::Delaunay;
+use crate::point::{Point, dot, sub};
+
+/// How far from a sample, as a part of the way to the next, its own circle of curvature is trusted.
+const TRUST: f64 = 0.75;
+
+/// A disk that touches the curve at a sample.
+#[derive(Debug, Clone, Copy)]
+pub struct Disk {
+    /// The center, in the scale of the triangulation.
+    pub center: Point,
+    /// The radius.
+    pub radius: f64,
+}
+
+/// The largest empty disks of a vertex.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Disks {
+    /// To the left and to the right of the curve.
+    pub sides: [Option<Disk>; 2],
+    /// The disk at the vertex of the curve, in the sense of differential geometry, with its side: an end of the axis.
+    pub tip: Option<(usize, Disk)>,
+}
+
+/// The largest empty disks at vertex `v`.
+pub fn disks(delaunay: &Delaunay, bends: &[Option<Bend>], v: u32) -> Disks {
+    let Some(bend) = &bends[v as usize] else { return Disks::default() };
+    let near = Near::new(bends, v, bend);
+    let mut disks = Disks::default();
+    for (side, sign) in [(0, 1.0), (1, -1.0)] {
+        let far = far_curvature(delaunay, bends, v, &near, sign);
+        let curvature = near.curvature(sign).max(far);
+        disks.sides[side] = disk(delaunay.point(v), bend.normal(), sign * curvature, curvature);
+        if let Some(tip) = tip(delaunay.point(v), bend, sign, far) {
+            disks.tip = Some((side, tip));
+        }
+    }
+    disks
+}
+
+/// The disk that touches at `point`, if it is bounded; `signed` is its curvature, positive along the normal.
+fn disk(point: Point, normal: Point, signed: f64, curvature: f64) -> Option<Disk> {
+    let center = [0, 1].map(|k| point[k] + normal[k] / signed);
+    let bounded = curvature > 0.0 && center.iter().all(|x| x.is_finite());
+    bounded.then_some(Disk { center, radius: 1.0 / curvature })
+}
+
+/// The osculating disk where the curvature is largest: there the axis ends.
+fn tip(point: Point, bend: &Bend, sign: f64, far: f64) -> Option<Disk> {
+    let s = bend.vertex().filter(|_| sign * bend.second < 0.0)?;
+    let curvature = sign * bend.curvature_at(s);
+    if curvature <= far {
+        return None;
+    }
+    let place = bend.place(s);
+    let normal = super::interpolant::turned(bend.normal(), bend.turn(s));
+    disk([point[0] + place[0], point[1] + place[1]], normal, sign * curvature, curvature)
+}
+
+/// The stretch of curve around a sample that its own quadratic describes: five samples.
+struct Near<'a> {
+    bend: &'a Bend,
+    samples: [Option<u32>; 4],
+    ends: [f64; 2],
+}
+
+impl<'a> Near<'a> {
+    fn new(bends: &[Option<Bend>], v: u32, bend: &'a Bend) -> Self {
+        let mut samples = [bend.adjacent[0], bend.adjacent[1], None, None];
+        let mut ends = bend.reach;
+        for k in 0..2 {
+            let Some(next) = samples[k].and_then(|next| bends[next as usize].as_ref()) else {
+                continue;
+            };
+            let beyond = usize::from(next.adjacent[1] != Some(v));
+            samples[2 + k] = next.adjacent[beyond];
+            ends[k] += next.reach[beyond];
+        }
+        Self { bend, samples, ends: [-ends[0], ends[1]] }
+    }
+
+    /// The largest curvature of a disk that touches at the sample and meets the stretch, on the side of `sign`.
+    fn curvature(&self, sign: f64) -> f64 {
+        let Bend { curvature, slope, second, .. } = *self.bend;
+        // 2 n·(x − s)/|x − s|² at arc length t, up to terms of third order.
+        let touching = |t: f64| sign * (curvature + t * (slope / 3.0 + t * second / 6.0));
+        let inner = if second == 0.0 { 0.0 } else { -slope / second };
+        let inner = inner.clamp(self.ends[0], self.ends[1]);
+        [0.0, inner, self.ends[0], self.ends[1]].map(touching).into_iter().fold(0.0, f64::max)
+    }
+}
+
+/// The largest curvature of a disk that touches at `v` and meets another part of the curve.
+fn far_curvature(
+    delaunay: &Delaunay,
+    bends: &[Option<Bend>],
+    v: u32,
+    near: &Near<'_>,
+    sign: f64,
+) -> f64 {
+    let s = delaunay.point(v);
+    let normal = near.bend.normal().map(|x| sign * x);
+    let mut largest: f64 = 0.0;
+    for &q in delaunay.star(v).neighbors {
+        if near.samples[..2].contains(&Some(q)) {
+            continue;
+        }
+        let d = sub(delaunay.point(q), s);
+        let through = 2.0 * dot(normal, d) / dot(d, d);
+        if through <= 0.0 {
+            continue;
+        }
+        largest = largest.max(through);
+        if let Some(other) = bends[q as usize].as_ref().filter(|_| !near.samples.contains(&Some(q)))
+        {
+            largest = largest.max(touching_both(normal, d, through, other).unwrap_or(0.0));
+        }
+    }
+    largest
+}
+
+/// The curvature of the disk that touches at the origin and touches the circle of curvature at `d` from outside the curve.
+///
+/// `through` is that of the disk through d itself; `None` if the second contact is not near d.
+fn touching_both(normal: Point, d: Point, through: f64, other: &Bend) -> Option<f64> {
+    let center = normal.map(|x| x / through);
+    let side = dot(other.normal(), sub(center, d)).signum();
+    let (facing, bend) = (other.normal().map(|x| side * x), side * other.curvature);
+    // |ρ n − o| = |1/κ − ρ| with o = d + facing/κ, solved for 1/ρ.
+    let numerator = 1.0 - dot(normal, facing) - bend * dot(normal, d);
+    let denominator = -dot(d, facing) - bend * dot(d, d) / 2.0;
+    let curvature = numerator / denominator;
+    if !(denominator > 0.0 && curvature > 0.0 && curvature.is_finite()) {
+        return None;
+    }
+    let from = sub(normal.map(|x| x / curvature), d);
+    let offset = dot(other.tangent, from) / (1.0 - bend * dot(facing, from));
+    let within = -TRUST * other.reach[0] <= offset && offset <= TRUST * other.reach[1];
+    within.then_some(curvature)
+}

@@ -1,0 +1,208 @@
+//! The smooth interpolant: at each sample a tangent, and the curvature as a quadratic function of arc length.
+//!
+//! The circle through three successive samples has the curvature's mean over them, weighted by the B-spline with knots at
+//! the three. Three such means, from five samples, determine a quadratic that has exactly these means. Where the means
+//! change abruptly, as from a line to an arc, its second derivative is limited so that it does not overshoot.
+
+use crate::adjacency::Adjacency;
+use crate::delaunay::Delaunay;
+use crate::point::{Point, cross, dot, sub};
+use rayon::prelude::*;
+
+/// How much larger than a neighbor's second derivative of the curvature that of a sample may be.
+const LIMIT: f64 = 3.0;
+
+/// The curve near a sample, run through from `before` to `after`.
+#[derive(Debug, Clone, Copy)]
+pub struct Bend {
+    /// The adjacent samples; an endpoint has one.
+    pub adjacent: [Option<u32>; 2],
+    /// The arc lengths to them, from the sample; 0 where there is none.
+    pub reach: [f64; 2],
+    /// The unit tangent.
+    pub tangent: Point,
+    /// The signed curvature at the sample: positive where the curve turns left.
+    pub curvature: f64,
+    /// Its derivative by arc length.
+    pub slope: f64,
+    /// Half of its second derivative.
+    pub second: f64,
+}
+
+impl Bend {
+    /// The unit normal to the left.
+    #[must_use]
+    pub fn normal(&self) -> Point {
+        left(self.tangent)
+    }
+
+    /// +1 if the curve leaves through `next` forward, −1 if backward.
+    #[must_use]
+    pub fn direction(&self, next: u32) -> f64 {
+        if self.adjacent[1] == Some(next) { 1.0 } else { -1.0 }
+    }
+
+    /// The curvature at arc length `s` from the sample.
+    #[must_use]
+    pub fn curvature_at(&self, s: f64) -> f64 {
+        self.curvature + s * (self.slope + s * self.second)
+    }
+
+    /// The angle that the tangent turns by from the sample to arc length `s`.
+    #[must_use]
+    pub fn turn(&self, s: f64) -> f64 {
+        s * (self.curvature + s * (self.slope / 2.0 + s * self.second / 3.0))
+    }
+
+    /// The place at arc length `s` from the sample, relative to it; for turns of less than about one radian.
+    #[must_use]
+    pub fn place(&self, s: f64) -> Point {
+        // Simpson's rule for the integral of the tangent.
+        let tangent = |s: f64| turned(self.tangent, self.turn(s));
+        let (middle, end) = (tangent(s / 2.0), tangent(s));
+        [0, 1].map(|k| s / 6.0 * (self.tangent[k] + 4.0 * middle[k] + end[k]))
+    }
+
+    /// Where between the adjacent samples the curvature has its extremum, if nearer to this sample than to them.
+    #[must_use]
+    pub fn vertex(&self) -> Option<f64> {
+        let s = -self.slope / (2.0 * self.second);
+        (self.second != 0.0 && -self.reach[0] <= 2.0 * s && 2.0 * s <= self.reach[1]).then_some(s)
+    }
+}
+
+/// The vector a quarter turn to the left of `v`.
+#[must_use]
+pub fn left([x, y]: Point) -> Point {
+    [-y, x]
+}
+
+/// `v` turned left by `angle` radians.
+#[must_use]
+pub fn turned([x, y]: Point, angle: f64) -> Point {
+    let (sin, cos) = angle.sin_cos();
+    [x * cos - y * sin, x * sin + y * cos]
+}
+
+/// The interpolant at each vertex; `None` at isolated points and branches.
+#[must_use]
+pub fn bends(delaunay: &Delaunay, curve: &Adjacency) -> Vec<Option<Bend>> {
+    let vertices = 0..delaunay.points().len() as u32;
+    let circles: Vec<_> =
+        vertices.clone().into_par_iter().map(|v| circle(delaunay, curve, v)).collect();
+    let seconds: Vec<f64> = vertices.clone().into_par_iter().map(|v| second(&circles, v)).collect();
+    vertices.into_par_iter().map(|v| bend(&circles, &seconds, v)).collect()
+}
+
+/// The circle through a vertex and those adjacent to it; at an endpoint through it and the next two.
+fn circle(delaunay: &Delaunay, curve: &Adjacency, v: u32) -> Option<Bend> {
+    let at = |vertex: u32| delaunay.point(vertex);
+    match *curve.of(v) {
+        [(a, _), (b, _)] => Some(through(sub(at(a), at(v)), sub(at(b), at(v)), [Some(a), Some(b)])),
+        [(b, _)] => {
+            let &(c, _) = curve.of(b).iter().find(|&&(c, _)| c != v && curve.of(b).len() == 2)?;
+            // The same circle, with the endpoint first: c stands on the far side.
+            let mut bend = through(sub(at(c), at(v)), sub(at(b), at(v)), [None, Some(b)]);
+            let forward = dot(bend.tangent, sub(at(b), at(v)));
+            if forward < 0.0 {
+                bend.tangent = bend.tangent.map(|x| -x);
+                bend.curvature = -bend.curvature;
+            }
+            bend.reach = [0.0, arc(sub(at(b), at(v)), bend.curvature)];
+            Some(bend)
+        }
+        _ => None,
+    }
+}
+
+/// The circle through the origin, `a` and `b`, run through from a by the origin to b.
+fn through(a: Point, b: Point, adjacent: [Option<u32>; 2]) -> Bend {
+    let (aa, bb, chord) = (dot(a, a), dot(b, b), sub(b, a));
+    // Inversion in the origin makes the circle a line along the tangent.
+    let along = [0, 1].map(|k| b[k] / bb - a[k] / aa);
+    let length = along[0].hypot(along[1]);
+    let tangent =
+        if length > 0.0 { along.map(|x| x / length) } else { left(b.map(|x| x / bb.sqrt())) };
+    let curvature = 2.0 * cross(b, a) / (aa * bb * dot(chord, chord)).sqrt();
+    let curvature = if curvature.is_finite() { curvature } else { 0.0 };
+    let reach = [arc(a, curvature), arc(b, curvature)];
+    Bend { adjacent, reach, tangent, curvature, slope: 0.0, second: 0.0 }
+}
+
+/// The length of an arc of small curvature over the chord `d`.
+fn arc(d: Point, curvature: f64) -> f64 {
+    let chord = dot(d, d).sqrt();
+    let square = (chord * curvature / 2.0).powi(2).min(1.0);
+    chord * (1.0 + square * (1.0 / 6.0 + square * 0.075))
+}
+
+/// The mean curvatures at a vertex and those adjacent, and the moments of their weights; in the vertex's direction.
+struct Means {
+    curvature: [f64; 3],
+    first: [f64; 3],
+    second: [f64; 3],
+    /// The adjacent vertices, and +1 or −1 as their direction agrees.
+    adjacent: [(u32, f64); 2],
+}
+
+impl Means {
+    fn new(circles: &[Option<Bend>], v: u32) -> Option<Self> {
+        let here = circles[v as usize].as_ref()?;
+        let [Some(a), Some(b)] = here.adjacent else { return None };
+        let (before, after) = (circles[a as usize].as_ref()?, circles[b as usize].as_ref()?);
+        if before.adjacent.contains(&None) || after.adjacent.contains(&None) {
+            return None;
+        }
+        let signs = [before.direction(v), -after.direction(v)];
+        let [h1, h2] = here.reach;
+        let h0 = before.reach[usize::from(signs[0] < 0.0)];
+        let h3 = after.reach[usize::from(signs[1] > 0.0)];
+        let knots = [[-h1 - h0, -h1, 0.0], [-h1, 0.0, h2], [0.0, h2, h2 + h3]];
+        Some(Self {
+            curvature: [signs[0] * before.curvature, here.curvature, signs[1] * after.curvature],
+            first: knots.map(|[x, y, z]| (x + y + z) / 3.0),
+            second: knots.map(|[x, y, z]| (x * (x + y + z) + y * (y + z) + z * z) / 6.0),
+            adjacent: [(a, signs[0]), (b, signs[1])],
+        })
+    }
+
+    /// Half the second derivative of the quadratic that has these means.
+    fn quadratic(&self) -> f64 {
+        let [k, m, v] = [self.curvature, self.first, self.second];
+        let left = (k[1] - k[0]) / (m[1] - m[0]);
+        let right = (k[2] - k[1]) / (m[2] - m[1]);
+        let steps = (v[2] - v[1]) / (m[2] - m[1]) - (v[1] - v[0]) / (m[1] - m[0]);
+        let second = (right - left) / steps;
+        if second.is_finite() { second } else { 0.0 }
+    }
+}
+
+fn second(circles: &[Option<Bend>], v: u32) -> f64 {
+    Means::new(circles, v).map_or(0.0, |means| means.quadratic())
+}
+
+fn bend(circles: &[Option<Bend>], seconds: &[f64], v: u32) -> Option<Bend> {
+    let mut bend = circles[v as usize]?;
+    let Some(means) = Means::new(circles, v) else { return Some(bend) };
+    let near = means.adjacent.map(|(vertex, sign)| sign * seconds[vertex as usize]);
+    let second = limited(seconds[v as usize], near);
+    let [k, m, moment] = [means.curvature, means.first, means.second];
+    let slope = (k[2] - k[0] - second * (moment[2] - moment[0])) / (m[2] - m[0]);
+    let correction = -slope * m[1] - second * moment[1];
+    let h = bend.reach[1];
+    let angle = -h * (correction / 2.0 + h * (slope / 6.0 + h * second / 12.0));
+    if [slope, correction, angle].iter().all(|x| x.is_finite()) {
+        bend.second = second;
+        bend.slope = slope;
+        bend.curvature += correction;
+        bend.tangent = turned(bend.tangent, angle);
+    }
+    Some(bend)
+}
+
+/// `value`, no larger than a multiple of the larger neighbor of its sign.
+fn limited(value: f64, near: [f64; 2]) -> f64 {
+    let sign = value.signum();
+    let most = near.iter().fold(0.0, |most: f64, x| most.max(sign * x));
+    sign * value.abs().min(LIMIT * most)
+}

@@ -1,0 +1,127 @@
+//! The local feature size, estimated from samples and edges.
+//!
+//! The distance to the sampled medial axis (`medial_axis`) overestimates: Voronoi vertices stop short of the tips of the
+//! axis. Here the axis is that of a smooth interpolant: for each sample the centers of the largest empty disks that touch the
+//! interpolant there, linked along the curve, and the centers of curvature where the curvature is largest, at the tips.
+
+mod disks;
+mod interpolant;
+mod segments;
+
+use crate::adjacency::Adjacency;
+use crate::delaunay::Delaunay;
+use crate::edges::Edges;
+use crate::error::Result;
+use crate::point::{Point, dot, sub};
+use crate::progress::Progress;
+use disks::{Disk, Disks, disks};
+pub use interpolant::Bend;
+use interpolant::bends;
+use rayon::prelude::*;
+use segments::{Query, Segment, Tree};
+
+/// Centers farther apart than this part of the smaller radius are not linked: the axis may turn in between.
+const LINK: f64 = 1.0;
+/// Queries that one task takes at a time.
+const GRAIN: usize = 1 << 10;
+
+/// The smooth interpolant of edges and its medial axis.
+#[derive(Debug)]
+pub struct FeatureSize {
+    bends: Vec<Option<Bend>>,
+    tree: Tree,
+}
+
+impl FeatureSize {
+    /// Of the curves along `curve`.
+    ///
+    /// # Errors
+    /// A cancelled `progress`.
+    pub fn new(delaunay: &Delaunay, curve: &Adjacency, progress: &Progress) -> Result<Self> {
+        let bends = bends(delaunay, curve);
+        progress.advance(0)?;
+        let vertices = 0..delaunay.points().len() as u32;
+        let disks: Vec<Disks> =
+            vertices.clone().into_par_iter().map(|v| disks(delaunay, &bends, v)).collect();
+        progress.advance(0)?;
+        let axis: Vec<Segment> =
+            vertices.into_par_iter().flat_map_iter(|v| segments(&bends, &disks, v)).collect();
+        progress.advance(0)?;
+        Ok(Self { bends, tree: Tree::new(&axis) })
+    }
+
+    /// The interpolant at each vertex; `None` at isolated points and branches.
+    #[must_use]
+    pub fn bends(&self) -> &[Option<Bend>] {
+        &self.bends
+    }
+
+    /// The distance to the axis from each of `places`, which should be in an order that jumps little; infinite without an axis.
+    ///
+    /// # Errors
+    /// A cancelled `progress`.
+    pub fn distances(&self, places: &[Point], progress: &Progress) -> Result<Vec<f64>> {
+        let part = |places: &[Point]| {
+            let mut query = Query::default();
+            let sizes: Vec<f64> =
+                places.iter().map(|&place| self.tree.distance(place, &mut query)).collect();
+            progress.advance(0)?;
+            Ok(sizes)
+        };
+        Ok(places.par_chunks(GRAIN).map(part).collect::<Result<Vec<_>>>()?.concat())
+    }
+}
+
+/// The local feature size at each input row: not a number at isolated points, 0 at branches.
+///
+/// O(n log n).
+///
+/// # Errors
+/// A cancelled `progress`.
+pub fn feature_size(delaunay: &Delaunay, edges: &Edges, progress: &Progress) -> Result<Vec<f64>> {
+    let curve = Adjacency::new(delaunay, edges);
+    let axis = FeatureSize::new(delaunay, &curve, progress)?;
+    let distances = axis.distances(delaunay.points(), progress)?;
+    let mut sizes = vec![f64::NAN; delaunay.input_len()];
+    for (v, &distance) in distances.iter().enumerate() {
+        sizes[delaunay.rows()[v] as usize] = match curve.of(v as u32).len() {
+            0 => f64::NAN,
+            1 | 2 => distance / delaunay.scale(),
+            _ => 0.0,
+        };
+    }
+    for &[row, first] in delaunay.duplicates() {
+        sizes[row as usize] = sizes[first as usize];
+    }
+    Ok(sizes)
+}
+
+/// The segments of the axis that vertex `v` answers for: to its tip, and to the centers of later adjacent vertices.
+fn segments(bends: &[Option<Bend>], disks: &[Disks], v: u32) -> Vec<Segment> {
+    let mut segments = Vec::new();
+    let (Some(bend), here) = (&bends[v as usize], &disks[v as usize]) else { return segments };
+    for side in 0..2 {
+        let Some(disk) = here.sides[side] else { continue };
+        segments.push(Segment { ends: [disk.center; 2], radius: disk.radius });
+        for next in bend.adjacent.into_iter().flatten().filter(|&next| next > v) {
+            let Some(other) = &bends[next as usize] else { continue };
+            let agrees = bend.direction(next) == -other.direction(v);
+            let beyond = disks[next as usize].sides[if agrees { side } else { 1 - side }];
+            segments.extend(beyond.and_then(|beyond| link(disk, beyond)));
+        }
+    }
+    if let Some((side, tip)) = here.tip {
+        let disk = here.sides[side];
+        segments.push(Segment { ends: [tip.center; 2], radius: tip.radius });
+        segments.extend(disk.and_then(|disk| link(disk, tip)));
+    }
+    segments
+}
+
+/// The segment between two centers whose disks overlap well.
+fn link(a: Disk, b: Disk) -> Option<Segment> {
+    let step = sub(b.center, a.center);
+    let radius = a.radius.min(b.radius);
+    (dot(step, step) <= (LINK * radius).powi(2))
+        .then_some(Segment { ends: [a.center, b.center], radius })
+}

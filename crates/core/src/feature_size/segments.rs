@@ -1,0 +1,177 @@
+//! Segments in a tree of boxes, to find the nearest.
+//!
+//! The packed tree of I. Kamel and C. Faloutsos, "On Packing R-trees" (1993): segments sorted along a space-filling curve,
+//! each box over `FAN` successive ones. Built in linear time after the sort; queries that come in order start from the last answer.
+
+use crate::point::{Point, dot, sub};
+use rayon::prelude::*;
+
+/// Children of a node.
+const FAN: usize = 8;
+/// A box is not opened for a gain smaller than this part of the squared distance.
+const GAIN: f64 = 1e-5;
+/// A segment within this part of its own radius of the last one kept is left out.
+const CROWDED: f64 = 1e-4;
+
+/// A segment of the axis.
+#[derive(Debug, Clone, Copy)]
+pub struct Segment {
+    /// The ends, perhaps the same.
+    pub ends: [Point; 2],
+    /// The lesser radius of the disks at the ends.
+    pub radius: f64,
+}
+
+impl Segment {
+    /// The squared distance from `p`.
+    #[inline]
+    fn square(&self, p: Point) -> f64 {
+        let [a, b] = self.ends;
+        let (along, from) = (sub(b, a), sub(p, a));
+        let length = dot(along, along);
+        let t = if length > 0.0 { (dot(from, along) / length).clamp(0.0, 1.0) } else { 0.0 };
+        let off = [from[0] - t * along[0], from[1] - t * along[1]];
+        dot(off, off)
+    }
+
+    fn middle(&self) -> Point {
+        let [a, b] = self.ends;
+        [f64::midpoint(a[0], b[0]), f64::midpoint(a[1], b[1])]
+    }
+
+    fn crowds(&self, other: &Self) -> bool {
+        let limit = (CROWDED * self.radius).powi(2);
+        let near = |k: usize| {
+            let step = sub(self.ends[k], other.ends[k]);
+            dot(step, step) <= limit
+        };
+        near(0) && near(1)
+    }
+}
+
+/// A box: least x and y, then largest.
+type Bounds = [f64; 4];
+
+const EMPTY: Bounds = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+
+fn join(a: Bounds, b: Bounds) -> Bounds {
+    [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]
+}
+
+#[inline]
+fn square_to(bounds: &Bounds, p: Point) -> f64 {
+    let gap = |low: f64, high: f64, x: f64| (low - x).max(x - high).max(0.0);
+    let (x, y) = (gap(bounds[0], bounds[2], p[0]), gap(bounds[1], bounds[3], p[1]));
+    x * x + y * y
+}
+
+/// Segments, searchable.
+#[derive(Debug, Default)]
+pub struct Tree {
+    segments: Vec<Segment>,
+    /// The boxes over segments, over those boxes, and so on up to one.
+    levels: Vec<Vec<Bounds>>,
+}
+
+/// The memory of a run of queries.
+#[derive(Debug, Default)]
+pub struct Query {
+    stack: Vec<(f64, usize, usize)>,
+    last: usize,
+}
+
+impl Tree {
+    /// A tree of `segments`; those that crowd others are left out.
+    pub fn new(segments: &[Segment]) -> Self {
+        let segments = thinned(segments, &order(segments));
+        let mut levels = Vec::new();
+        let mut boxes: Vec<Bounds> = segments.par_chunks(FAN).map(bounds_of).collect();
+        while boxes.len() > 1 {
+            let above =
+                boxes.par_chunks(FAN).map(|part| part.iter().copied().fold(EMPTY, join)).collect();
+            levels.push(std::mem::replace(&mut boxes, above));
+        }
+        levels.push(boxes);
+        Self { segments, levels }
+    }
+
+    /// The distance from `p` to the nearest segment, infinite if there is none.
+    pub fn distance(&self, p: Point, query: &mut Query) -> f64 {
+        let Some(guess) = self.segments.get(query.last) else { return f64::INFINITY };
+        let mut best = guess.square(p);
+        query.stack.clear();
+        query.stack.push((0.0, self.levels.len() - 1, 0));
+        while let Some((square, level, node)) = query.stack.pop() {
+            if square >= best * (1.0 - GAIN) {
+                continue;
+            }
+            if level == 0 {
+                for k in FAN * node..(FAN * node + FAN).min(self.segments.len()) {
+                    let square = self.segments[k].square(p);
+                    if square < best {
+                        (best, query.last) = (square, k);
+                    }
+                }
+            } else {
+                self.open(p, level, node, best, &mut query.stack);
+            }
+        }
+        best.sqrt()
+    }
+
+    /// Push the children of a box that are near enough, the nearest last.
+    fn open(
+        &self,
+        p: Point,
+        level: usize,
+        node: usize,
+        best: f64,
+        stack: &mut Vec<(f64, usize, usize)>,
+    ) {
+        let below = &self.levels[level - 1];
+        let start = stack.len();
+        let children = below.iter().enumerate().skip(FAN * node).take(FAN);
+        let squares = children.map(|(child, bounds)| (square_to(bounds, p), level - 1, child));
+        stack.extend(squares.filter(|&(square, _, _)| square < best));
+        stack[start..].sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+    }
+}
+
+fn bounds_of(segments: &[Segment]) -> Bounds {
+    let ends = segments.iter().flat_map(|segment| segment.ends);
+    ends.fold(EMPTY, |bounds, [x, y]| join(bounds, [x, y, x, y]))
+}
+
+/// The numbers of the segments along a Z-order curve.
+fn order(segments: &[Segment]) -> Vec<u32> {
+    let middles = || segments.par_iter().map(Segment::middle);
+    let [x, y, right, top] = middles().map(|[x, y]| [x, y, x, y]).reduce(|| EMPTY, join);
+    let cells = f64::from(u16::MAX) / (right - x).max(top - y);
+    let code = |[px, py]: Point| {
+        spread(((px - x) * cells) as u16) | spread(((py - y) * cells) as u16) << 1
+    };
+    let mut keys: Vec<u64> =
+        middles().enumerate().map(|(k, middle)| code(middle) << 32 | k as u64).collect();
+    keys.par_sort_unstable();
+    keys.into_par_iter().map(|key| key as u32).collect()
+}
+
+/// The bits of `x`, two apart.
+fn spread(x: u16) -> u64 {
+    let x = u64::from(x);
+    let x = (x | x << 8) & 0x00ff_00ff;
+    let x = (x | x << 4) & 0x0f0f_0f0f;
+    let x = (x | x << 2) & 0x3333_3333;
+    (x | x << 1) & 0x5555_5555
+}
+
+fn thinned(segments: &[Segment], order: &[u32]) -> Vec<Segment> {
+    let mut kept: Vec<Segment> = Vec::new();
+    for &k in order {
+        let segment = segments[k as usize];
+        if !kept.last().is_some_and(|last| segment.crowds(last)) {
+            kept.push(segment);
+        }
+    }
+    kept
+}

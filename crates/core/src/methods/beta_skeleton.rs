@@ -1,0 +1,130 @@
+//! The β-skeleton.
+//!
+//! D. G. Kirkpatrick and J. D. Radke, "A framework for computational morphology", Computational
+//! Geometry (1985), and N. Amenta, M. Bern, D. Eppstein (1998), section 2, which reconstructs
+//! curves with the union of two disks.
+
+use super::gamma_graph::gamma_of;
+use crate::angle_bound::AngleBound;
+use crate::boxes::Boxes;
+use crate::constant::{Constant, fraction};
+use crate::delaunay::{Delaunay, Edge};
+use crate::edges::{Edges, select};
+use crate::error::{Error, Result};
+use crate::point::{Point, dot, sub};
+use crate::progress::Progress;
+use crate::sign::{self, Form, Number};
+use std::cmp::Ordering::{Equal, Greater};
+
+/// The family of forbidden regions for β > 1; for β ≤ 1 they are the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// The union of the two disks of radius β d / 2 that touch both points.
+    Circle,
+    /// The intersection of the two disks of radius β d / 2 that touch one point each and are
+    /// centered on their line.
+    Lune,
+}
+
+/// The edges whose forbidden region holds no point.
+///
+/// O(n log n) for β ≥ 1. For β < 1 the region is the intersection of the two disks of radius d / 2β
+/// that touch both points, all pairs are candidates and up to all are edges: O(m log n) for m edges
+/// as a rule.
+///
+/// # Errors
+/// A `beta` that is not positive and finite, or a cancelled `progress`.
+pub fn beta_skeleton(
+    delaunay: &Delaunay,
+    beta: f64,
+    kind: Kind,
+    progress: &Progress,
+) -> Result<Edges> {
+    if !(beta > 0.0 && beta.is_finite()) {
+        let message = format!("beta must be a positive finite number, not {beta}");
+        return Err(Error::Argument { message });
+    }
+    if kind == Kind::Lune && beta > 1.0 {
+        return lunes(delaunay, beta, progress);
+    }
+    let bound = AngleBound::of_beta(beta);
+    let sum = beta.partial_cmp(&1.0).unwrap_or(Equal);
+    gamma_of(delaunay, &[bound.clone(), bound], sum, progress)
+}
+
+/// The edges with an empty lune, for `beta` > 1.
+///
+/// The lune holds the disk on p q as a diameter, its circle too but for p and q. So the edges are
+/// in every Delaunay triangulation; but other points than the apexes may lie in the lune.
+fn lunes(delaunay: &Delaunay, beta: f64, progress: &Progress) -> Result<Edges> {
+    let (lune, boxes) = (Lune::new(beta), Boxes::new(delaunay.points()));
+    select(delaunay, progress, || (), |(), edge| lune.is_empty(delaunay, &boxes, edge))
+}
+
+/// The intersection of two disks, each centered on the line p q and touching one of them.
+struct Lune {
+    beta: f64,
+    disk: TouchingDisk,
+}
+
+impl Lune {
+    fn new(beta: f64) -> Self {
+        let [n, d] = fraction(beta);
+        Self { beta, disk: TouchingDisk { n: Constant::new(&n), d: Constant::new(&d) } }
+    }
+
+    fn is_empty(&self, delaunay: &Delaunay, boxes: &Boxes, edge: Edge) -> bool {
+        let [p, q] = [edge.p, edge.q].map(|vertex| delaunay.point(vertex));
+        let holds = |r: u32| {
+            let r = delaunay.point(r);
+            self.disk_holds(p, q, r) && self.disk_holds(q, p, r)
+        };
+        let near = [edge.p, edge.q].map(|vertex| delaunay.star(vertex).neighbors);
+        if near.into_iter().flatten().any(|&r| holds(r)) {
+            return false;
+        }
+        let [a, b] = [sub(q, p), sub(p, q)].map(|chord| chord.map(|x| x * self.beta / 2.0));
+        let radius = a[0].hypot(a[1]);
+        !boxes.any(
+            &mut |bounds, _| {
+                bounds.seen_from(p).may_meet_disk(a, radius)
+                    && bounds.seen_from(q).may_meet_disk(b, radius)
+            },
+            &mut |r| holds(r),
+        )
+    }
+
+    /// Is `r` in the disk that touches `p` and is centered β / 2 of the way to `q`?
+    #[inline]
+    fn disk_holds(&self, p: Point, q: Point, r: Point) -> bool {
+        /// More than all that underflow can take away.
+        const UNDERFLOW: f64 = 1e-150;
+        let (u, v) = (sub(r, p), sub(q, p));
+        let size = (u[0].abs() + u[1].abs()) * (v[0].abs() + v[1].abs());
+        let square = dot(u, u);
+        let excess = self.beta * dot(u, v) - square;
+        let bound =
+            16.0 * f64::EPSILON * (square + self.beta * size) + UNDERFLOW * (1.0 + self.beta);
+        if excess.abs() > bound {
+            return excess > 0.0;
+        }
+        sign::sign(&self.disk, p, &[q, r]) == Greater
+    }
+}
+
+/// β q·r − r·r, times the denominator of β: positive inside the disk through the origin with center
+/// β q / 2.
+struct TouchingDisk {
+    n: Constant,
+    d: Constant,
+}
+
+impl Form<2> for TouchingDisk {
+    fn bound(&self, bits: u32) -> u32 {
+        2 * bits + 2 + self.n.bits().max(self.d.bits())
+    }
+    fn value<T: Number>(&self, [q, r]: &[[T; 2]; 2]) -> T {
+        let along = self.n.number::<T>().times(&sign::dot(q, r));
+        along.minus(&self.d.number::<T>().times(&sign::dot(r, r)))
+    }
+}

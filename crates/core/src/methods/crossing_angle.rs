@@ -1,0 +1,45 @@
+//! The γ-graphs of fixed crossing angle.
+//!
+//! N. Amenta, M. Bern, D. Eppstein (1998), section 3, believe that such a family reconstructs
+//! curves as the crust does: two disks that touch p and q, of any radii, whose circles cross at a
+//! fixed angle.
+
+use crate::angle_bound::AngleBound;
+use crate::angle_pair::AnglePair;
+use crate::delaunay::{Delaunay, Edge};
+use crate::edges::{Edges, select};
+use crate::error::{Error, Result};
+use crate::progress::Progress;
+use std::cmp::Ordering::Greater;
+
+/// The edges touched by two disks without points inside whose circles cross at least at the angle
+/// of `cotangent`.
+///
+/// The tangents of a circle through p and q turn with its center, so the two circles cross at the
+/// angle under which p sees their centers: 180° less the angles opposite to the edge, for the two
+/// that reach furthest. O(n log n).
+///
+/// # Errors
+/// A `cotangent` that is not finite, or a cancelled `progress`.
+pub fn crossing_angle_graph(
+    delaunay: &Delaunay,
+    cotangent: f64,
+    progress: &Progress,
+) -> Result<Edges> {
+    if !cotangent.is_finite() {
+        let message = format!("the cotangent of the angle must be finite, not {cotangent}");
+        return Err(Error::Argument { message });
+    }
+    let (sum, supplement) = (AnglePair::sum(cotangent), AngleBound::of_cotangent(-cotangent));
+    let keep = |edge: Edge| {
+        let [p, q] = [edge.p, edge.q].map(|vertex| delaunay.point(vertex));
+        match [edge.left, edge.right].map(|apex| apex.map(|vertex| delaunay.point(vertex))) {
+            [Some(left), Some(right)] => sum.admits(p, q, left, right),
+            // Outside of the hull the disks come near to a half-plane but are none: equality is not
+            // reached.
+            [Some(apex), None] | [None, Some(apex)] => supplement.compare(p, q, apex) == Greater,
+            [None, None] => true,
+        }
+    };
+    select(delaunay, progress, || (), |(), edge| keep(edge))
+}

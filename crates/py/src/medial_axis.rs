@@ -1,0 +1,42 @@
+//! The medial axis of samples: a triangulation and edges in, arrays out.
+
+use crate::arrays::{coordinates, integer_rows, integers, rows, values};
+use crate::call::Call;
+use crate::delaunay::Delaunay;
+use crate::trace::canonical;
+use crustline_core::medial_axis::{MedialAxis, medial_axis as axis};
+use numpy::PyReadonlyArray2;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// The medial axis as a dictionary of arrays, by the names of the fields.
+#[pyfunction]
+pub fn medial_axis<'py>(
+    py: Python<'py>,
+    delaunay: &Delaunay,
+    edges: PyReadonlyArray2<'py, i64>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let core = delaunay.core();
+    let edges = canonical(py, rows(py, &edges)?, core.input_len())?;
+    let call = Call { size: core.input_len(), threads: None, callback: None };
+    let MedialAxis {
+        vertices,
+        radii,
+        edges,
+        samples,
+        inner,
+        ray_origins,
+        ray_directions,
+        ray_samples,
+    } = call.run(py, |progress| axis(core, &edges, progress))?;
+    let fields = PyDict::new(py);
+    fields.set_item("vertices", coordinates(py, &vertices)?)?;
+    fields.set_item("radii", values(py, radii))?;
+    fields.set_item("edges", integer_rows(py, &edges)?)?;
+    fields.set_item("samples", integer_rows(py, &samples)?)?;
+    fields.set_item("inner", values(py, inner))?;
+    fields.set_item("ray_origins", integers(py, ray_origins.into_iter().map(i64::from)))?;
+    fields.set_item("ray_directions", coordinates(py, &ray_directions)?)?;
+    fields.set_item("ray_samples", integer_rows(py, &ray_samples)?)?;
+    Ok(fields)
+}

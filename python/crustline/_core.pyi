@@ -1,0 +1,117 @@
+from collections.abc import Callable
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = [
+    "Delaunay",
+    "__version__",
+    "a_shape",
+    "alpha_shape",
+    "beta_skeleton",
+    "crossing_angle_graph",
+    "crust",
+    "feature_size",
+    "gabriel",
+    "gamma_graph",
+    "medial_axis",
+    "minimum_spanning_tree",
+    "nn_crust",
+    "one_step_crust",
+    "rcgh",
+    "relative_neighborhood",
+    "trace",
+]
+
+__version__: str
+
+_Progress = Callable[[str, float], object]
+_Floats = NDArray[np.float64]
+_Integers = NDArray[np.int64]
+
+@final
+class Delaunay:
+    def __new__(
+        cls, points: _Floats, threads: int | None = None, progress: _Progress | None = None
+    ) -> Delaunay: ...
+    def triangles(self) -> _Integers: ...
+    def halfedges(self) -> _Integers: ...
+    def hull(self) -> _Integers: ...
+    def circumcenters(self) -> _Floats: ...
+    def circumradii(self) -> _Floats: ...
+    def edges(self) -> _Integers: ...
+    def duplicates(self) -> _Integers: ...
+
+def crust(
+    delaunay: Delaunay,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
+def beta_skeleton(
+    delaunay: Delaunay,
+    beta: float,
+    lune: bool,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
+def gabriel(
+    delaunay: Delaunay,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
+def relative_neighborhood(
+    delaunay: Delaunay,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
+def one_step_crust(
+    delaunay: Delaunay,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
+def gamma_graph(
+    delaunay: Delaunay,
+    c0: float,
+    c1: float,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
+def crossing_angle_graph(
+    delaunay: Delaunay,
+    cotangent: float,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
+def alpha_shape(
+    delaunay: Delaunay,
+    radius: float,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
+def a_shape(
+    delaunay: Delaunay,
+    own: int,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
+def rcgh(
+    delaunay: Delaunay,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
+def nn_crust(
+    delaunay: Delaunay,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
+def minimum_spanning_tree(
+    delaunay: Delaunay,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
+def trace(
+    points: _Floats, edges: _Integers
+) -> tuple[_Integers, _Integers, NDArray[np.bool_], _Integers]: ...
+def feature_size(delaunay: Delaunay, edges: _Integers) -> _Floats: ...
+def medial_axis(delaunay: Delaunay, edges: _Integers) -> dict[str, NDArray[Any]]: ...

@@ -1,0 +1,249 @@
+"""The methods equal their definitions on many small sets, say what is wrong with their parameters,
+and find on large sets what brute force finds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+
+import crustline as cl
+import generators as make
+import oracle
+from crustline.methods import METHODS
+from generators import Rows
+
+Method = Callable[..., Any]
+
+CASES: dict[str, tuple[Method, Method]] = {
+    "crust": (cl.crust, oracle.crust),
+    "beta_skeleton": (cl.beta_skeleton, lambda p: oracle.beta_skeleton(p, 1.70)),
+    "beta_skeleton of 5/4": (
+        lambda p, **how: cl.beta_skeleton(p, 1.25, **how),
+        lambda p: oracle.beta_skeleton(p, 1.25),
+    ),
+    "beta_skeleton of 3/5": (
+        lambda p, **how: cl.beta_skeleton(p, 0.6, **how),
+        lambda p: oracle.beta_skeleton(p, 0.6),
+    ),
+    "beta_skeleton of lunes": (
+        lambda p, **how: cl.beta_skeleton(p, 1.5, kind="lune", **how),
+        lambda p: oracle.beta_skeleton(p, 1.5, "lune"),
+    ),
+    "gabriel": (cl.gabriel, oracle.gabriel),
+    "relative_neighborhood": (cl.relative_neighborhood, oracle.relative_neighborhood),
+    "one_step_crust": (cl.one_step_crust, oracle.one_step_crust),
+    "gamma_graph": (
+        lambda p, **how: cl.gamma_graph(p, 0.5, -0.5, **how),
+        lambda p: oracle.gamma_graph(p, 0.5, -0.5),
+    ),
+    "gamma_graph of all pairs": (
+        lambda p, **how: cl.gamma_graph(p, 0.2, -0.6, **how),
+        lambda p: oracle.gamma_graph(p, 0.2, -0.6),
+    ),
+    "crossing_angle_graph": (
+        lambda p, **how: cl.crossing_angle_graph(p, 1.7, **how),
+        lambda p: oracle.crossing_angle_graph(p, Fraction(math.tan(math.pi / 2 - 1.7))),
+    ),
+    "a_shape": (
+        lambda p, **how: cl.a_shape(p, [(1, 1), (2.5, 2), (9, 9)], **how),
+        lambda p: oracle.a_shape(p, [(1, 1), (2.5, 2), (9, 9)]),
+    ),
+    "rcgh": (cl.rcgh, oracle.rcgh),
+    "nn_crust": (cl.nn_crust, oracle.nn_crust),
+    "minimum_spanning_tree": (cl.minimum_spanning_tree, oracle.minimum_spanning_tree),
+    "alpha_shape": (
+        lambda p, **how: cl.alpha_shape(p, 1.25, **how),
+        lambda p: oracle.alpha_shape(p, 1.25),
+    ),
+}
+SCALE_FREE = [name for name in CASES if name not in ("alpha_shape", "a_shape")]
+
+
+def pairs(edges: Any) -> list[tuple[int, int]]:
+    """Edges as a list of pairs, in order."""
+    return [tuple(edge) for edge in edges.tolist()]
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_definition_on_small_integer_sets(name: str) -> None:
+    method, definition = CASES[name]
+    rng = np.random.default_rng(200)
+    for _ in range(500):
+        points = make.grid(rng)
+        assert pairs(method(points)) == definition(points), points.tolist()
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_definition_with_many_points(name: str) -> None:
+    # Enough for the tree of boxes to have levels.
+    method, definition = CASES[name]
+    rng = np.random.default_rng(201)
+    for points in (rng.random((45, 2)), rng.integers(0, 12, (45, 2)), make.noisy_curve(rng)):
+        assert pairs(method(points)) == definition(points), points.tolist()
+
+
+@pytest.mark.parametrize("name", SCALE_FREE)
+@pytest.mark.parametrize("exponent", [-300, 300])
+def test_scaling_by_a_power_of_two_changes_nothing(name: str, exponent: int) -> None:
+    method, _ = CASES[name]
+    rng = np.random.default_rng(202)
+    for _ in range(40):
+        points = make.few_ulps_off(rng, make.degenerate(rng))
+        assert pairs(method(np.ldexp(points, exponent))) == pairs(method(points)), points.tolist()
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_repeated_rows_change_nothing(name: str) -> None:
+    method, _ = CASES[name]
+    rng = np.random.default_rng(203)
+    for _ in range(40):
+        points = np.unique(make.degenerate(rng), axis=0)
+        again = points[rng.integers(0, len(points), 5)]
+        assert pairs(method(np.vstack((points, again)))) == pairs(method(points))
+
+
+@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("points", [[], [(1, 2)], [(1, 2), (1, 2)]])
+def test_fewer_than_two_distinct_points_have_no_edges(name: str, points: list[Any]) -> None:
+    edges = CASES[name][0](points)
+    assert edges.shape == (0, 2)
+    assert edges.dtype == np.int64
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_threads_change_nothing(name: str) -> None:
+    method, _ = CASES[name]
+    points = np.random.default_rng(204).random((9000, 2))
+    seen: list[tuple[str, float]] = []
+    edges = method(points, threads=1, progress=lambda stage, done: seen.append((stage, done)))
+    assert np.array_equal(edges, method(points, threads=2))
+    assert all(0 <= done <= 1 for _, done in seen)
+    assert not edges.flags.writeable
+
+
+def brute_force(points: Rows, is_forbidden: Method) -> list[tuple[int, int]]:
+    """The pairs with no point in the region that `is_forbidden` gives, in floating point."""
+    n = len(points)
+    vectors = points[None, :, :] - points[:, None, :]
+    kept = []
+    for i in range(n):
+        for j in range(i + 1, n):
+            to_i, to_j = -vectors[i], -vectors[j]
+            dots = (to_i * to_j).sum(axis=1)
+            crosses = np.abs(to_i[:, 0] * to_j[:, 1] - to_i[:, 1] * to_j[:, 0])
+            dots[[i, j]] = np.inf
+            if not is_forbidden(dots, crosses).any():
+                kept.append((i, j))
+    return kept
+
+
+@pytest.mark.parametrize("beta", [0.3, 0.7, 0.95])
+def test_beta_skeleton_below_one_of_many_points(beta: float) -> None:
+    points = np.random.default_rng(205).random((250, 2))
+    cotangent = -math.sqrt(1 - beta * beta) / beta
+    expected = brute_force(points, lambda dots, crosses: dots < cotangent * crosses)
+    assert pairs(cl.beta_skeleton(points, beta)) == expected
+
+
+def test_points_of_one_large_circle() -> None:
+    points = make.integer_circle(5**2 * 13**2 * 17**2)
+    n = len(points)
+    assert n == 108
+    rng = np.random.default_rng(206)
+    rows = rng.permutation(n)
+    antipodes = {
+        frozenset((i, j))
+        for i in range(n)
+        for j in range(i)
+        if not np.any(points[rows[i]] + points[rows[j]])
+    }
+    ring = {frozenset(edge) for edge in cl.crust(points[rows]).tolist()}
+    assert {frozenset(edge) for edge in cl.gabriel(points[rows]).tolist()} == ring | antipodes
+    assert len(cl.alpha_shape(points, 5 * 13 * 17)) == n * (n - 1) // 2
+    assert len(cl.alpha_shape(points, np.nextafter(5.0 * 13 * 17, 2000))) == n
+
+
+def test_right_crossing_angle_is_the_one_step_crust() -> None:
+    rng = np.random.default_rng(207)
+    for _ in range(300):
+        points = make.degenerate(rng)
+        assert pairs(cl.crossing_angle_graph(points, math.pi / 2)) == pairs(
+            cl.one_step_crust(points)
+        )
+
+
+def test_gamma_of_opposite_limits_is_the_hull() -> None:
+    rng = np.random.default_rng(208)
+    for _ in range(100):
+        points = rng.random((20, 2))
+        hull = cl.Delaunay(points).hull
+        around = {frozenset(edge) for edge in zip(hull, np.roll(hull, 1), strict=True)}
+        assert {frozenset(edge) for edge in cl.gamma_graph(points, 1, -1).tolist()} == around
+
+
+@pytest.mark.parametrize(
+    "beta", [1e-300, 5e-324, 1e300, 1.7e308, np.nextafter(1, 0), np.nextafter(1, 2)]
+)
+@pytest.mark.parametrize("kind", ["circle", "lune"])
+def test_extreme_betas_are_exact(beta: float, kind: Any) -> None:
+    rng = np.random.default_rng(209)
+    for _ in range(20):
+        points = make.degenerate(rng)
+        expected = oracle.beta_skeleton(points, float(beta), kind)
+        assert pairs(cl.beta_skeleton(points, beta, kind=kind)) == expected, points.tolist()
+
+
+# What is refused.
+
+SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
+
+
+@pytest.mark.parametrize("beta", [0, -1, math.nan, math.inf, "1.7", None, True, 1j, 10**400])
+def test_a_beta_that_is_not_positive_is_refused(beta: Any) -> None:
+    with pytest.raises(cl.InputError, match=r"^beta must be "):
+        cl.beta_skeleton(SQUARE, beta)
+
+
+def test_the_error_quotes_the_value() -> None:
+    with pytest.raises(cl.InputError, match=r"beta must be positive and finite, not -2.5"):
+        cl.beta_skeleton(SQUARE, -2.5)
+    with pytest.raises(cl.InputError, match=r"kind must be \"circle\" or \"lune\", not 'disk'"):
+        cl.beta_skeleton(SQUARE, kind="disk")  # type: ignore[arg-type]
+    with pytest.raises(cl.InputError, match=r"c1 must be a number from -1 to 1, not 1.5"):
+        cl.gamma_graph(SQUARE, 0, 1.5)
+    with pytest.raises(cl.InputError, match=r"angle must be in radians, .* not 90"):
+        cl.crossing_angle_graph(SQUARE, 90)
+    with pytest.raises(cl.InputError, match=r"extra, as points: row 1 has nan"):
+        cl.a_shape(SQUARE, [(0, 0), (math.nan, 1)])
+
+
+@pytest.mark.parametrize("radius", [0, -1.0, math.nan, math.inf, "big"])
+def test_a_radius_that_is_not_positive_is_refused(radius: Any) -> None:
+    with pytest.raises(cl.InputError, match=r"^radius must be "):
+        cl.alpha_shape(SQUARE, radius)
+
+
+@pytest.mark.parametrize(("exponent", "radius"), [(-900, 1e300), (900, 1e-320)])
+def test_a_radius_out_of_all_proportion_is_refused(exponent: int, radius: float) -> None:
+    with pytest.raises(cl.InputError, match=r"radius .* too far from the coordinates"):
+        cl.alpha_shape(np.ldexp(np.array(SQUARE, float), exponent), radius)
+
+
+def test_methods_need_no_more_than_points() -> None:
+    assert list(METHODS) == [
+        "crust",
+        "beta-skeleton",
+        "gabriel",
+        "relative-neighborhood",
+        "one-step-crust",
+        "rcgh",
+        "nn-crust",
+        "minimum-spanning-tree",
+    ]
+    for method in METHODS.values():
+        assert method(SQUARE).shape[1] == 2
