@@ -241,6 +241,23 @@ def test_thinned_chain_is_the_fewest_of_all_choices() -> None:
         assert len(kept) == _fewest(points, lfs, 0.5)
 
 
+@pytest.mark.parametrize("closed", [True, False])
+def test_strides_over_very_dense_samples_are_the_longest_steps(
+    closed: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    curve = shapes.trefoil(3, 0.4)
+    t = np.arange(3000) / 3000
+    points, lfs = curve.point(t), local_feature_size(curve, t)
+    every = sampling._thinned(points, lfs, 0.2, closed)
+    monkeypatch.setattr(sampling, "MOST_SERVED", 0)
+    strides = sampling._thinned(points, lfs, 0.2, closed)
+    assert len(every) <= len(strides) <= len(every) + closed
+    if closed:
+        assert sampling_ratio(curve, points[strides]) <= 0.2 * 1.001
+    else:
+        assert np.array_equal(strides, every)
+
+
 def _fewest(points: FloatArray, lfs: FloatArray, r: float) -> int:
     count = {0: 1}
     for j in range(1, len(points)):

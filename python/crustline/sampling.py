@@ -35,6 +35,8 @@ MARGIN = 3e-4
 # Random steps are at least this share of the longest step.
 SHORTEST_STEP = 0.5
 MOST_ROUNDS = 60
+# Beyond this many edges a step, thinning strides instead of looking at every sample as a start.
+MOST_SERVED = 150
 
 
 @dataclass(frozen=True, eq=False)
@@ -262,14 +264,15 @@ def thin(points: npt.ArrayLike, edges: npt.ArrayLike, r: float) -> IntArray:
 
     Notes
     -----
-    Every point p of the edges has a kept point within r · LFS(p), one of the two next
-    to p along its curve; between the samples LFS is taken as low as a 1-Lipschitz function can be,
-    and the distance to a kept point as large as a convex one.
-    Where the samples themselves are not dense enough for that, all of them are kept. Of all choices
-    with that property, one of the fewest, except on rings that r would leave with less than three
-    points. LFS is that of the reconstruction, estimated from the samples
-    (`local_feature_size(points, edges)`), not that of the unknown curve. O(n w) time, w the longest
-    step in samples.
+    Every point p of the edges has a kept point within r · LFS(p), one of the two next to p along
+    its curve; between the samples LFS is taken as low as a 1-Lipschitz function can be, and the
+    distance to a kept point as large as a convex one. Where the samples themselves are not dense
+    enough for that, all of them are kept. Of all choices with that property, one of the fewest,
+    except on rings that r would leave with less than three points, and on curves from which more
+    than a hundred samples are dropped for each one kept: those may keep one more. LFS is that of
+    the reconstruction, estimated from the samples (`local_feature_size(points, edges)`), not that
+    of the unknown curve. The time is proportional to the number of samples and, up to that
+    hundred, to the number of them in a step.
 
     Examples
     --------
@@ -538,7 +541,12 @@ def _thinned(points: FloatArray, lfs: FloatArray, r: float, closed: bool) -> Int
     if k <= 3:
         return np.arange(k)
     ahead = _served_edges(points, lfs, r, closed)
-    behind = _served_edges(points[::-1], lfs[::-1], r, closed)[::-1]
+    if ahead is None:
+        return _Strides(points, lfs, r, closed).kept()
+    behind = _served_edges(points[::-1], lfs[::-1], r, closed)
+    if behind is None:
+        return _Strides(points, lfs, r, closed).kept()
+    behind = behind[::-1]
     own = np.arange(k)
     if not closed:
         return _chain(_farthest(own + ahead, own - behind).tolist(), 0, k - 1)
@@ -567,12 +575,15 @@ def _farthest(reach: npt.NDArray[Any], need: npt.NDArray[Any]) -> IntArray:
     return np.maximum(farthest, np.arange(len(reach)) + 1).astype(np.int64)
 
 
-def _served_edges(points: FloatArray, lfs: FloatArray, r: float, closed: bool) -> FloatArray:
-    """Return how many edges ahead of each position are within its reach, the last in part."""
+def _served_edges(points: FloatArray, lfs: FloatArray, r: float, closed: bool) -> FloatArray | None:
+    """Return how many edges ahead of each position are within its reach, the last in part.
+
+    None if that would be more than MOST_SERVED for the average position.
+    """
     k = len(points)
     edges = np.hypot(*(np.roll(points, -1, axis=0) - points).T)
     served = np.zeros(k)
-    active = np.arange(k if closed else k - 1)
+    active, work = np.arange(k if closed else k - 1), 0
     for step in range(k if closed else k - 1):
         near = (active + step) % k
         part = _served_part(points, lfs, edges, r, active, near)
@@ -580,9 +591,69 @@ def _served_edges(points: FloatArray, lfs: FloatArray, r: float, closed: bool) -
         active = active[part >= 1]
         if not closed:
             active = active[active + step + 1 < k - 1]
+        work += len(active)
+        if work > MOST_SERVED * k:
+            return None
         if not len(active):
             break
     return served
+
+
+class _Strides:
+    """Longest steps along one curve so dense that most samples need not be looked at."""
+
+    def __init__(self, points: FloatArray, lfs: FloatArray, r: float, closed: bool) -> None:
+        self.r, self.closed, self.k = r, closed, len(points)
+        self.ahead = _Direction(points, lfs)
+        self.behind = _Direction(points[::-1], lfs[::-1])
+
+    def kept(self) -> IntArray:
+        """Return the positions to keep, from position 0 on."""
+        end = self.k if self.closed else self.k - 1
+        longest = self.k // 3 if self.closed else self.k
+        chain = [0]
+        while (ahead := min(self._step(chain[-1]), chain[-1] + longest)) < end:
+            chain.append(ahead)
+        return np.array(chain if self.closed else [*chain, end], dtype=np.int64)
+
+    def _step(self, i: int) -> int:
+        """Return the largest j found that serves, with i, all between them."""
+        reach = i + self._served(self.ahead, i)
+        good, width = max(i + 1, math.floor(reach)), 1
+        while self._serves(bad := good + width, reach) and bad - i < self.k:
+            good, width = bad, 2 * width
+        while bad - good > 1:
+            middle = (good + bad) // 2
+            good, bad = (middle, bad) if self._serves(middle, reach) else (good, middle)
+        return good
+
+    def _serves(self, j: int, reach: float) -> bool:
+        """Return whether the sample at j serves all from reach on to itself."""
+        if not self.closed and j >= self.k:
+            return False
+        return j - self._served(self.behind, self.k - 1 - j % self.k) <= reach
+
+    def _served(self, way: _Direction, i: int) -> float:
+        """Return how many edges on from position i are within its reach."""
+        i %= self.k
+        count = self.k if self.closed else self.k - 1 - i
+        done, width = 0, 256
+        while done < count:
+            near = (i + np.arange(done, min(done + width, count))) % self.k
+            part = _served_part(way.points, way.lfs, way.edges, self.r, np.full(len(near), i), near)
+            short = np.flatnonzero(part < 1)
+            if len(short):
+                return done + int(short[0]) + float(part[short[0]])
+            done, width = done + len(near), 2 * width
+        return float(count)
+
+
+class _Direction:
+    """The samples of a curve in one of its two directions."""
+
+    def __init__(self, points: FloatArray, lfs: FloatArray) -> None:
+        self.points, self.lfs = points, lfs
+        self.edges = np.hypot(*(np.roll(points, -1, axis=0) - points).T)
 
 
 def _served_part(

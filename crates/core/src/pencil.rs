@@ -124,6 +124,19 @@ impl Pencil {
         Disk { circle, parameter: twice, center, radius, error }
     }
 
+    /// The third corner of the triangle whose center the circle of `disk` goes through, if p and q are the other two.
+    #[must_use]
+    pub fn own_apex(&self, disk: &Disk) -> Option<Point> {
+        match disk.circle {
+            Circle::Through(Vertex { triangle: [p, q, apex], .. })
+                if [p, q] == [self.p, self.q] || [p, q] == [self.q, self.p] =>
+            {
+                Some(apex)
+            }
+            _ => None,
+        }
+    }
+
     /// Is `vertex` strictly inside `disk`?
     #[must_use]
     pub fn holds(&self, disk: &Disk, vertex: &Vertex) -> bool {

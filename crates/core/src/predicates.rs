@@ -128,7 +128,9 @@ fn is_moderate(x: f64) -> bool {
 #[cold]
 fn exact_orientation(a: Point, b: Point, c: Point) -> Ordering {
     if [a, b, c].iter().flatten().copied().all(is_moderate) {
-        return robust::orient2d(coord(a), coord(b), coord(c)).total_cmp(&0.0);
+        let sign = robust::orient2d(coord(a), coord(b), coord(c));
+        // Zero may come with a minus sign, which `total_cmp` would take for less.
+        return sign.partial_cmp(&0.0).unwrap_or(Ordering::Equal);
     }
     exact_sign(&Orientation, c, &[a, b])
 }
@@ -190,6 +192,15 @@ mod tests {
             assert_eq!(exact_in_circle(a, b, c, d), by_integers);
             let e = [0.5, near(0.5, k)];
             assert_eq!(orientation(a, c, e), exact_sign(&Orientation, e, &[a, c]));
+        }
+    }
+
+    #[test]
+    fn points_in_line_turn_neither_way_where_zero_is_negative() {
+        for (x, y) in [(-1.0, 0.0), (0.0, -1.0), (-1.0, -1.0), (1.0, -1.0), (0.1, -0.3)] {
+            let at = |t: f64| [t * x, t * y];
+            assert_eq!(orientation(at(1.0), at(2.0), at(4.0)), Ordering::Equal);
+            assert_eq!(orientation(at(4.0), at(-2.0), at(1.0)), Ordering::Equal);
         }
     }
 

@@ -32,8 +32,7 @@ impl Delaunay {
     }
 
     fn check_triangles(&self) -> Result<(), String> {
-        let flat = self.is_flat();
-        for p in (0..self.points.len() as u32).filter(|_| !flat) {
+        for p in 0..self.points.len() as u32 {
             for (q, r) in self.star(p).wedges() {
                 if !is_left(self.point(p), self.point(q), self.point(r)) {
                     return Err(format!("triangle {p} {q} {r} does not turn left"));
@@ -61,7 +60,7 @@ impl Delaunay {
         let (vertices, edges) = (self.points.len(), self.edges().count());
         let expected = match vertices {
             0 => 0,
-            _ if self.is_flat() => vertices - 1,
+            _ if self.is_in_line() => vertices - 1,
             _ => 3 * vertices - 3 - self.hull.len(),
         };
         if edges == expected { Ok(()) } else { Err(format!("{edges} edges instead of {expected}")) }
@@ -77,8 +76,7 @@ impl Delaunay {
     }
 
     /// Do all vertices lie on one line?
-    #[must_use]
-    pub fn is_flat(&self) -> bool {
+    fn is_in_line(&self) -> bool {
         let [a, b, rest @ ..] = self.points.as_slice() else { return true };
         rest.iter().all(|&c| orientation(*a, *b, c) == Equal)
     }

@@ -28,6 +28,8 @@ pub struct Star<'a> {
     pub neighbors: &'a [u32],
     /// Is the vertex on the hull, so that no triangle spans the last and the first neighbor?
     pub on_hull: bool,
+    /// Are all vertices in one line, so that there is no triangle at all?
+    flat: bool,
 }
 
 impl<'a> Star<'a> {
@@ -35,6 +37,9 @@ impl<'a> Star<'a> {
     #[inline]
     #[must_use]
     pub fn left(&self, k: usize) -> Option<u32> {
+        if self.flat {
+            return None;
+        }
         match self.neighbors.get(k + 1) {
             Some(&next) => Some(next),
             None if self.on_hull => None,
@@ -46,7 +51,9 @@ impl<'a> Star<'a> {
     #[inline]
     #[must_use]
     pub fn right(&self, k: usize) -> Option<u32> {
-        if k > 0 {
+        if self.flat {
+            None
+        } else if k > 0 {
             Some(self.neighbors[k - 1])
         } else if self.on_hull {
             None
@@ -99,13 +106,24 @@ impl Stars {
     pub fn star(&self, vertex: u32) -> Star<'_> {
         let v = vertex as usize;
         let (start, end) = (self.offsets[v] as usize, self.offsets[v + 1] as usize);
-        Star { neighbors: &self.neighbors[start..end], on_hull: self.on_hull[v] }
+        Star {
+            neighbors: &self.neighbors[start..end],
+            on_hull: self.on_hull[v],
+            flat: self.is_flat(),
+        }
     }
 
     /// Where the star of `vertex` starts in the row of all neighbors.
     #[must_use]
     pub fn offset(&self, vertex: u32) -> usize {
         self.offsets[vertex as usize] as usize
+    }
+
+    /// Are all vertices in one line? A path has one edge less than vertices, all other triangulations have more.
+    #[inline]
+    #[must_use]
+    pub fn is_flat(&self) -> bool {
+        self.neighbors.len() < 2 * self.on_hull.len()
     }
 
     /// The number of half-edges.

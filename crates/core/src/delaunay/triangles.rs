@@ -9,9 +9,6 @@ impl Delaunay {
     /// The triangles as vertices, counter-clockwise, each from its smallest vertex; sorted by that, then around it.
     #[must_use]
     pub fn triangles(&self) -> Vec<[u32; 3]> {
-        if self.is_flat() {
-            return Vec::new();
-        }
         let from = |p: u32| {
             let smallest = move |&(q, r): &(u32, u32)| p < q && p < r;
             self.star(p).wedges().filter(smallest).map(move |(q, r)| [p, q, r])

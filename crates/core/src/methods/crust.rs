@@ -174,7 +174,7 @@ impl Visit {
         while next < self.cells.len() {
             let cell = self.cells[next];
             let other = [edge.q, edge.p].get(next).map(|&end| delaunay.point(end));
-            let part = Part::new(&disk, pencil.p, delaunay.point(cell), other);
+            let part = Part::new(&disk, pencil, delaunay.point(cell), other);
             let found = self.search_cell(delaunay, cell, pencil, &part);
             if found.is_some() {
                 return found;
@@ -192,7 +192,7 @@ impl Visit {
         part: &Part<'_>,
     ) -> Option<Vertex> {
         let star = delaunay.star(cell);
-        let Some(&last) = star.neighbors.last() else { return None };
+        let &last = star.neighbors.last()?;
         let mut before = (last, !star.on_hull && part.may_reach(delaunay.point(last)));
         for &neighbor in star.neighbors {
             let point = delaunay.point(neighbor);
@@ -236,6 +236,8 @@ struct Part<'a> {
     /// More than the rounding errors of the distances below.
     doubt: f64,
     half: Option<Half>,
+    /// The apex of the edge's own triangle whose center the circle goes through.
+    apex: Option<Point>,
 }
 
 /// The half of a disk that is nearer to one end of the edge.
@@ -248,14 +250,15 @@ struct Half {
 
 impl<'a> Part<'a> {
     /// The part of `disk` in the cell of `site`; `other` is the other end of the edge, if `site` is one.
-    fn new(disk: &'a Disk, origin: Point, site: Point, other: Option<Point>) -> Self {
-        let center = sub(disk.center, sub(site, origin));
+    fn new(disk: &'a Disk, pencil: &Pencil, site: Point, other: Option<Point>) -> Self {
+        let center = sub(disk.center, sub(site, pencil.p));
         let size = center[0].abs() + center[1].abs() + disk.radius;
         let half = other.map(|other| {
             let chord = sub(other, site);
             Half { chord, ratio: disk.radius / dot(chord, chord).sqrt() }
         });
-        Self { disk, site, center, doubt: 1e-14 * size + 2.0 * disk.error, half }
+        let apex = pencil.own_apex(disk);
+        Self { disk, site, center, doubt: 1e-14 * size + 2.0 * disk.error, half, apex }
     }
 
     /// Can a point of this part be nearer to `neighbor` than to the site? False only if certainly none is.
@@ -264,23 +267,26 @@ impl<'a> Part<'a> {
         let g = sub(neighbor, self.site);
         let span = g[0].abs() + g[1].abs();
         let far = dot(g, g);
-        let reach =
-            dot(self.center, g) + self.width(g, span, far) + (self.doubt + 1e-14 * span) * span;
+        let ahead = self.half.as_ref().filter(|half| half.faces(g, span));
+        if ahead.is_some() && self.apex == Some(neighbor) {
+            // The half disk ends on the bisector of p and q, there at that center, which is on this bisector, too.
+            return false;
+        }
+        let width = match ahead {
+            Some(half) => half.ratio * cross(half.chord, g).abs(),
+            // Where the direction is in doubt the whole disk serves, for it reaches no less.
+            None => self.disk.radius * far.sqrt(),
+        };
+        let reach = dot(self.center, g) + width + (self.doubt + 1e-14 * span) * span;
         // An unknown (not a number) counts as reaching.
         reach.is_nan() || reach > far / 2.0
     }
+}
 
-    /// How far this part reaches from the center in the direction of `g`, times the length of `g`.
+impl Half {
+    /// Does `g`, whose coordinates sum to `span`, certainly point to the other half?
     #[inline]
-    fn width(&self, g: Point, span: f64, far: f64) -> f64 {
-        match self.half {
-            Some(Half { chord, ratio })
-                if dot(chord, g) > 1e-14 * span * (chord[0].abs() + chord[1].abs()) =>
-            {
-                ratio * cross(chord, g).abs()
-            }
-            // Where the direction is in doubt the whole disk serves, for it reaches no less.
-            _ => self.disk.radius * far.sqrt(),
-        }
+    fn faces(&self, g: Point, span: f64) -> bool {
+        dot(self.chord, g) > 1e-14 * span * (self.chord[0].abs() + self.chord[1].abs())
     }
 }
