@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Self
 
@@ -110,6 +111,63 @@ class Points(np.ndarray[tuple[int, int], np.dtype[np.float64]]):
         z = None if self.z is None else self.z.copy()
         copied: Self = _rebuild(type(self), np.asarray(self), z, columns, self.crs, self.names)
         return copied
+
+    def select(self, rows: npt.ArrayLike) -> Self:
+        """Return some of the rows, with all that they carry.
+
+        Parameters
+        ----------
+        rows : array_like of int, shape (k,), or of bool, shape (n,)
+            As in NumPy's own indexing.
+
+        Examples
+        --------
+        >>> points = Points([(0, 0), (3, 4)], z=[7, 8], columns={"name": ["a", "b"]})
+        >>> points.select([1]).columns["name"].tolist()
+        ['b']
+        """
+        chosen = np.asarray(rows)
+        chosen = chosen if chosen.size else chosen.astype(np.int64)
+        columns = {name: column[chosen] for name, column in self.columns.items()}
+        z = None if self.z is None else self.z[chosen]
+        selected: Self = _rebuild(type(self), self[chosen], z, columns, self.crs, self.names)
+        return selected
+
+    def write(self, path: str | os.PathLike[str], *, format: str | None = None) -> None:
+        """Write the points to a file, whole or not at all, so that `crustline.read` gets them back.
+
+        Parameters
+        ----------
+        path : path-like
+            The file, which is replaced if it exists; "-" is standard output.
+        format : {"csv", "tsv", "xyz", "npy", "npz", "geojson", "wkt", "svg"}, optional
+            By default the suffix decides.
+
+        Raises
+        ------
+        FormatError
+            If the file cannot be written; nothing is left behind then.
+        InputError
+            If the format is unknown.
+
+        Notes
+        -----
+        Coordinates are written with the fewest digits that give the same float64 again. CSV, TSV,
+        NPZ and GeoJSON (a Point feature a row) keep heights and columns, NPZ and GeoJSON the CRS,
+        too; XYZ and NPY keep heights; WKT (a MULTIPOINT) keeps heights and the SRID of an EPSG
+        code; SVG is a picture, of dots.
+
+        Examples
+        --------
+        >>> points = Points([(0, 0), (3, 4)], z=[7, 8], columns={"name": ["a", "b"]})
+        >>> points.write("-", format="csv")
+        x,y,z,name
+        0.0,0.0,7.0,a
+        3.0,4.0,8.0,b
+        """
+        from crustline.formats import write_points
+
+        write_points(self, path, format=format)
 
     def __copy__(self) -> Self:
         return self.copy()

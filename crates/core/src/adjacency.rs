@@ -25,9 +25,15 @@ impl Adjacency {
             .filter(|[p, q]| p != q)
             .map(|[p, q]| [p.min(q), p.max(q)])
             .collect();
-        let mut edges = sort(&[mapped], delaunay.points().len());
+        Self::of_vertices(&[mapped], delaunay.points().len())
+    }
+
+    /// The neighbors along edges p < q between `count` vertices, in any order.
+    #[must_use]
+    pub fn of_vertices(parts: &[Edges], count: usize) -> Self {
+        let mut edges = sort(parts, count);
         edges.dedup();
-        let (offsets, ends) = incidence(&edges, delaunay.points().len());
+        let (offsets, ends) = incidence(&edges, count);
         Self { edges, offsets, ends }
     }
 

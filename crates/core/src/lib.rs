@@ -9,6 +9,7 @@ pub mod adjacency;
 pub mod angle_bound;
 pub mod angle_pair;
 pub mod boxes;
+pub mod certify;
 pub mod cocircular;
 pub mod constant;
 pub mod delaunay;

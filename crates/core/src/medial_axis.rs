@@ -11,7 +11,7 @@ use crate::point::{Point, sub};
 use crate::predicates::in_circle;
 use crate::progress::Progress;
 use crate::trace::trace;
-use crate::voronoi::circumcenter;
+use crate::voronoi::{Center, circumcenter};
 use rayon::prelude::*;
 
 /// The medial axis of samples.
@@ -226,10 +226,16 @@ fn assemble(
     }
 }
 
+/// Where a vertex is known to this part of its radius, floating point is good enough.
+///
+/// A flat triangle's center depends on the rounding of the samples themselves by more than this.
+const ACCURACY: f64 = 1e-7;
+
 /// The circumcenter of triangle `t` and its radius, in the scale of the input.
 fn center(mesh: &Mesh<'_>, t: u32) -> (Point, f64) {
     let corners = mesh.triangles[t as usize].map(|vertex| mesh.delaunay.point(vertex));
-    let from = circumcenter(corners);
+    let Center { at, error } = Center::estimate(corners, corners[0]);
+    let from = if error <= ACCURACY * at[0].hypot(at[1]) { at } else { circumcenter(corners) };
     let scale = mesh.delaunay.scale();
     let at = [0, 1].map(|axis| (corners[0][axis] + from[axis]) / scale);
     (at, from[0].hypot(from[1]) / scale)

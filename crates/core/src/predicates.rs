@@ -6,7 +6,8 @@
 //! underflows, so coordinates that small take the integers of [`sign`](crate::sign) instead.
 
 use crate::point::{Point, cross, dot, sub};
-use crate::sign::{Form, Number, exact_sign, small_sign};
+use crate::sign::{Form, Number, exact_sign, small_differences};
+use ethnum::I256;
 use std::cmp::Ordering::{self, Greater};
 
 const EPSILON: f64 = f64::EPSILON / 2.0;
@@ -137,14 +138,24 @@ fn exact_orientation(a: Point, b: Point, c: Point) -> Ordering {
 
 #[cold]
 fn exact_in_circle(a: Point, b: Point, c: Point, d: Point) -> bool {
-    // Ties come in crowds, on lattices, where integers are quick.
-    if let Some(sign) = small_sign(&InCircle, d, &[a, b, c]) {
-        return sign == Greater;
+    // Ties come in crowds, on lattices and circles, where integers are quicker than expansions.
+    if let Some((at, bits)) = small_differences(d, &[a, b, c]) {
+        return if bits < 15 { InCircle.value(&at) > 0 } else { wide_in_circle(at) };
     }
     if [a, b, c, d].iter().flatten().copied().all(is_moderate) {
         return robust::incircle(coord(a), coord(b), coord(c), coord(d)) > 0.0;
     }
     exact_sign(&InCircle, d, &[a, b, c]) == Greater
+}
+
+/// The in-circle test on differences of up to 62 bits: products of two in 128, of four in 256.
+fn wide_in_circle(at: [[i64; 2]; 3]) -> bool {
+    let [a, b, c] = at.map(|vector| vector.map(i128::from));
+    let term = |u: [i128; 2], v: [i128; 2], w: [i128; 2]| {
+        let lift = u[0] * u[0] + u[1] * u[1];
+        I256::from(lift) * I256::from(v[0] * w[1] - v[1] * w[0])
+    };
+    term(a, b, c) + term(b, c, a) + term(c, a, b) > 0
 }
 
 fn coord(p: Point) -> robust::Coord<f64> {

@@ -3,10 +3,11 @@
 //! A geometric question is the sign of a [`Form`]: a polynomial in the differences of coordinates.
 //! [`sign`] evaluates it first in floating point with a running error bound, then, where the bound
 //! cannot tell, in integers: every double is an integer times a power of two, so the differences are
-//! integers in a common unit. On lattices and the like the value fits in 64 or 128 bits, where it costs
-//! little more than in floating point; else the integers are `BigInt`.
+//! integers in a common unit. Mostly the value fits in 64, 128 or 256 bits, where it costs little more
+//! than in floating point; else the integers are `BigInt`.
 
 use crate::point::{Point, sub};
+use ethnum::I256;
 use num_bigint::BigInt;
 use num_traits::ToPrimitive;
 use std::cmp::Ordering;
@@ -59,26 +60,29 @@ pub fn sign<const N: usize, F: Form<N>>(form: &F, origin: Point, points: &[Point
 }
 
 /// The sign of `form` in integers.
-#[cold]
 pub fn exact_sign<const N: usize, F: Form<N>>(
     form: &F,
     origin: Point,
     points: &[Point; N],
 ) -> Ordering {
-    small_sign(form, origin, points).unwrap_or_else(|| big_sign(form, origin, points))
+    match integral_differences(origin, points) {
+        Some((at, bits)) if form.bound(bits) < 63 => form.value(&at).cmp(&0),
+        _ => wide_sign(form, origin, points),
+    }
 }
 
-/// The sign of `form` in integers, if its value fits in 128 bits.
-pub fn small_sign<const N: usize, F: Form<N>>(
-    form: &F,
-    origin: Point,
-    points: &[Point; N],
-) -> Option<Ordering> {
-    let (at, bits) = small_differences(origin, points)?;
+/// The sign of `form` in the smallest integers that its value fits in.
+#[cold]
+#[inline(never)]
+fn wide_sign<const N: usize, F: Form<N>>(form: &F, origin: Point, points: &[Point; N]) -> Ordering {
+    let Some((at, bits)) = small_differences(origin, points) else {
+        return big_sign(form, origin, points);
+    };
     match form.bound(bits) {
-        0..63 => Some(form.value(&at).cmp(&0)),
-        63..127 => Some(form.value(&at.map(|vector| vector.map(i128::from))).cmp(&0)),
-        _ => None,
+        0..63 => form.value(&at).cmp(&0),
+        63..127 => form.value(&at.map(|vector| vector.map(i128::from))).cmp(&0),
+        127..255 => form.value(&at.map(|vector| vector.map(I256::from))).cmp(&I256::ZERO),
+        _ => big_sign(form, origin, points),
     }
 }
 
@@ -188,6 +192,21 @@ impl Number for i128 {
     }
 }
 
+impl Number for I256 {
+    fn integer(value: i64) -> Self {
+        value.into()
+    }
+    fn plus(&self, other: &Self) -> Self {
+        self + other
+    }
+    fn minus(&self, other: &Self) -> Self {
+        self - other
+    }
+    fn times(&self, other: &Self) -> Self {
+        self * other
+    }
+}
+
 impl Number for BigInt {
     fn integer(value: i64) -> Self {
         value.into()
@@ -224,10 +243,38 @@ fn common_unit<const N: usize>(origin: Point, points: &[Point; N]) -> Option<i32
     points.iter().chain([&origin]).flatten().filter_map(|&x| nonzero(decompose(x))).min()
 }
 
-/// The differences as integers in their common unit, and the bits of the largest.
+/// The differences as integers in some common unit, and the bits of the largest.
 ///
 /// `None` if a difference is not a double, or the largest has more than 62 bits.
-fn small_differences<const N: usize>(
+pub fn small_differences<const N: usize>(
+    origin: Point,
+    points: &[Point; N],
+) -> Option<([[i64; 2]; N], u32)> {
+    integral_differences(origin, points).or_else(|| scaled_differences(origin, points))
+}
+
+/// The differences in units of 1, if all coordinates are whole numbers, as pixels are.
+#[inline]
+fn integral_differences<const N: usize>(
+    origin: Point,
+    points: &[Point; N],
+) -> Option<([[i64; 2]; N], u32)> {
+    let whole = |x: f64| {
+        let integer = x as i64;
+        (integer as f64 == x && integer.unsigned_abs() < 1 << 53).then_some(integer)
+    };
+    let (x, y) = (whole(origin[0])?, whole(origin[1])?);
+    let mut at = [[0; 2]; N];
+    let mut union = 0;
+    for (difference, point) in at.iter_mut().zip(points) {
+        *difference = [whole(point[0])? - x, whole(point[1])? - y];
+        union |= difference[0].unsigned_abs() | difference[1].unsigned_abs();
+    }
+    Some((at, u64::BITS - union.leading_zeros()))
+}
+
+/// The differences in their largest common unit.
+fn scaled_differences<const N: usize>(
     origin: Point,
     points: &[Point; N],
 ) -> Option<([[i64; 2]; N], u32)> {

@@ -2,6 +2,7 @@
 
 mod arrays;
 mod call;
+mod certify;
 mod delaunay;
 mod errors;
 mod feature_size;
@@ -14,6 +15,8 @@ use pyo3::prelude::*;
 /// The Python module `crustline._core`.
 #[pymodule]
 mod _core {
+    #[pymodule_export]
+    use crate::certify::certify;
     #[pymodule_export]
     use crate::delaunay::Delaunay;
     #[pymodule_export]

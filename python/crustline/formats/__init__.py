@@ -1,4 +1,4 @@
-"""Reading points and writing curves: one file per format, and the table that finds it."""
+"""Reading and writing points, writing curves: one file per format, and the table that finds it."""
 
 from __future__ import annotations
 
@@ -22,7 +22,8 @@ Path = str | os.PathLike[str]
 
 @dataclass(frozen=True)
 class Format:
-    """Where a format lives: `read_NAME` and `write_NAME` in a module of this package."""
+    """Where a format lives: `read_NAME`, `write_NAME` and `write_points_NAME` in a module of this
+    package. Points are written in every format."""
 
     module: str
     suffixes: tuple[str, ...]
@@ -156,33 +157,41 @@ def write(curves: Curves, path: Path, *, format: str | None = None, polygons: bo
     replace_file(path, _function("write", key)(curves, polygons=polygons))
 
 
-def output_format(path: Path, format: str | None = None) -> str:
-    """Return the name of the format that `write` would use for a path, or raise `InputError`."""
-    _check_format(format, "write")
-    key = format or format_of(path, "write")
+def write_points(points: Points, path: Path, *, format: str | None = None) -> None:
+    """Write points with all that they carry to a file, whole or not at all: see `Points.write`."""
+    key = output_format(path, format, "write_points")
+    replace_file(path, _function("write_points", key)(points))
+
+
+def output_format(path: Path, format: str | None = None, task: str = "write") -> str:
+    """Return the format in which to "write" curves or to "write_points", or raise `InputError`."""
+    _check_format(format, task)
+    key = format or format_of(path, task)
     if key is None:
-        known = ", ".join(suffix for each in _known("write") for suffix in FORMATS[each].suffixes)
+        known = ", ".join(suffix for each in _known(task) for suffix in FORMATS[each].suffixes)
         raise InputError(
             f"no format is known for the output {describe_path(path)!r}: name it {known}, "
-            f"or choose one of {', '.join(_known('write'))}"
+            f"or choose one of {', '.join(_known(task))}"
         )
     return key
 
 
 def format_of(path: Path, task: str) -> str | None:
-    """Return the format that a path's suffix names and that can "read" or "write"."""
+    """Return the format that a path's suffix names and that can "read", "write"…"""
     suffix = PurePath(path).suffix.lower()
     return next((key for key in _known(task) if suffix in FORMATS[key].suffixes), None)
 
 
 def _known(task: str) -> list[str]:
-    return [key for key, each in FORMATS.items() if (each.reads if task == "read" else each.writes)]
+    able = {"read": "reads", "write": "writes"}.get(task)
+    return [key for key, each in FORMATS.items() if able is None or getattr(each, able)]
 
 
 def _check_format(format: str | None, task: str) -> None:
     if format is not None and format not in _known(task):
         known = ", ".join(_known(task))
-        raise InputError(f"nobody knows how to {task} the format {format!r}: choose one of {known}")
+        verb = task.removesuffix("_points")
+        raise InputError(f"nobody knows how to {verb} the format {format!r}: choose one of {known}")
 
 
 def _check_columns(columns: Sequence[str | int]) -> tuple[str | int, ...]:
@@ -209,4 +218,4 @@ def _sniff(content: bytes) -> str:
     return "wkt" if looks_like_wkt(start) else "csv"
 
 
-__all__ = ["FORMATS", "format_of", "output_format", "read", "write"]
+__all__ = ["FORMATS", "format_of", "output_format", "read", "write", "write_points"]

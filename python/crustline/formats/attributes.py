@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from crustline.arrays import FloatArray, IntArray
+from crustline.curves import Curves
 from crustline.errors import FormatError
 from crustline.points import Points
-
-if TYPE_CHECKING:
-    from crustline.curves import Curves
 
 # Names of x and y, the surest first.
 _PAIRS = (
@@ -38,7 +36,11 @@ class Attributes:
 
 def attributes_of(curves: Curves, reserved: Collection[str] = ()) -> Attributes:
     """Return what the points of curves carry; a column with a reserved name becomes input_NAME."""
-    points = curves.points
+    return attributes_of_points(curves.points, reserved)
+
+
+def attributes_of_points(points: FloatArray, reserved: Collection[str] = ()) -> Attributes:
+    """Return what points carry, for `attributes_of`."""
     if not isinstance(points, Points):
         return Attributes(None, {}, None)
     columns: dict[str, npt.NDArray[Any]] = {}
@@ -50,6 +52,13 @@ def attributes_of(curves: Curves, reserved: Collection[str] = ()) -> Attributes:
         taken.add(free)
         columns[free] = values
     return Attributes(points.z, columns, points.crs)
+
+
+def without_curves(points: Points) -> Curves:
+    """Return points as curves of which there are none: every row is isolated, repeated ones too."""
+    none = np.zeros(0, dtype=np.int64)
+    rows = np.arange(len(points))
+    return Curves(points, none, np.zeros(1, np.int64), none.astype(bool), rows)
 
 
 def coordinates_with_height(curves: Curves, rows: IntArray) -> FloatArray:

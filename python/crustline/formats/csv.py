@@ -1,4 +1,7 @@
-"""Columns of text: CSV, TSV, XYZ and plain columns are read alike, CSV and TSV are written."""
+"""Columns of text: CSV, TSV, XYZ and plain columns are read alike, CSV and TSV are written.
+
+Points without curves are written as XYZ, too: numbers alone, without a header.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +18,13 @@ import numpy.typing as npt
 
 from crustline.arrays import FloatArray
 from crustline.errors import FormatError
-from crustline.formats.attributes import attributes_of, find_coordinates, find_pair, texts
+from crustline.formats.attributes import (
+    attributes_of,
+    attributes_of_points,
+    find_coordinates,
+    find_pair,
+    texts,
+)
 from crustline.formats.file import as_text
 from crustline.points import Points
 
@@ -316,15 +325,40 @@ def write_csv(curves: Curves, *, polygons: bool = False, separator: str = ",") -
     else:
         columns["z"] = attributes.z[rows]
     columns |= {name: values[rows] for name, values in attributes.columns.items()}
-    header = separator.join(_cells(np.array(list(columns)), separator))
-    cells = [_cells(values, separator) for values in columns.values()]
-    lines = [header, *map(separator.join, zip(*cells, strict=True)), ""]
-    return "\n".join(lines).encode()
+    return _table(columns, separator)
 
 
 def write_tsv(curves: Curves, *, polygons: bool = False) -> bytes:
     """Return the curves as CSV with tabs."""
     return write_csv(curves, polygons=polygons, separator="\t")
+
+
+def write_points_csv(points: Points, *, separator: str = ",") -> bytes:
+    """Return points as CSV: the coordinates by the names that they had, z, the other columns."""
+    columns: dict[str, Column] = dict(zip(points.names, np.asarray(points).T, strict=True))
+    if points.z is not None:
+        columns["z"] = points.z
+    columns |= attributes_of_points(points, reserved=columns).columns
+    return _table(columns, separator)
+
+
+def write_points_tsv(points: Points) -> bytes:
+    """Return points as CSV with tabs."""
+    return write_points_csv(points, separator="\t")
+
+
+def write_points_xyz(points: Points) -> bytes:
+    """Return points as lines of x, y and z if there is one; XYZ has no other columns."""
+    heights = [] if points.z is None else [points.z]
+    cells = [texts(values) for values in (*np.asarray(points).T, *heights)]
+    return "".join(f"{' '.join(row)}\n" for row in zip(*cells, strict=True)).encode()
+
+
+def _table(columns: dict[str, Column], separator: str) -> bytes:
+    header = separator.join(_cells(np.array(list(columns)), separator))
+    cells = [_cells(values, separator) for values in columns.values()]
+    lines = [header, *map(separator.join, zip(*cells, strict=True)), ""]
+    return "\n".join(lines).encode()
 
 
 def _result_columns(curves: Curves) -> dict[str, Column]:

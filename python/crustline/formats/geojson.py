@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import chain
+from itertools import chain, repeat
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
@@ -229,11 +229,34 @@ def _crs(document: dict[str, Any]) -> str | None:
 
 def write_geojson(curves: Curves, *, polygons: bool = False) -> bytes:
     """Return the curves as a FeatureCollection, a line of text for each feature."""
-    writer = _Writer(curves)
-    features = writer.features(polygons)
-    member = geojson_member(attributes_of(curves).crs)
+    features = _Writer(curves).features(polygons)
+    return _collection(attributes_of(curves).crs, map(_dump, features))
+
+
+def write_points_geojson(points: Points) -> bytes:
+    """Return points as a FeatureCollection of Points, the other columns as properties."""
+    positions = np.asarray(points)
+    if points.z is not None:
+        positions = np.column_stack([positions, points.z])
+    columns = [_as_json(values) for values in points.columns.values()]
+    rows = zip(*columns, strict=True) if columns else repeat(())
+    features = (
+        _dump(
+            {
+                "type": "Feature",
+                "properties": dict(zip(points.columns, row, strict=True)),
+                "geometry": {"type": "Point", "coordinates": position},
+            }
+        )
+        for position, row in zip(positions.tolist(), rows, strict=False)
+    )
+    return _collection(points.crs, features)
+
+
+def _collection(name: str | None, features: Iterable[str]) -> bytes:
+    member = geojson_member(name)
     crs = "" if member is None else f'"crs":{_dump(member)},'
-    body = ",\n".join(map(_dump, features))
+    body = ",\n".join(features)
     return f'{{"type":"FeatureCollection",{crs}"features":[\n{body}\n]}}\n'.encode()
 
 

@@ -1,4 +1,4 @@
-"""NumPy's own files: NPY and NPZ are read, NPZ is written."""
+"""NumPy's own files: both are read, curves are written as NPZ, points as both."""
 
 from __future__ import annotations
 
@@ -9,8 +9,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from crustline.arrays import FloatArray
 from crustline.errors import FormatError, InputError
-from crustline.formats.attributes import attributes_of, find_coordinates, find_pair, quote_all
+from crustline.formats.attributes import (
+    attributes_of_points,
+    find_coordinates,
+    find_pair,
+    quote_all,
+)
 from crustline.points import Points
 
 if TYPE_CHECKING:
@@ -46,9 +52,27 @@ def read_npz(content: bytes, source: str, columns: Sequence[str | int] | None) -
 
 def write_npz(curves: Curves, *, polygons: bool = False) -> bytes:
     """Return the curves as an archive of arrays, with the points in the order of the input."""
-    attributes = attributes_of(curves)
-    arrays: dict[str, Any] = {"points": curves.coordinates}
-    arrays |= {name: getattr(curves, name) for name in _RESULT}
+    result = {name: getattr(curves, name) for name in _RESULT}
+    return _archive({"points": curves.coordinates, **result, **_carried(curves.points)})
+
+
+def write_points_npy(points: Points) -> bytes:
+    """Return points as one array (n, 2), or (n, 3) with heights; NPY has no other columns."""
+    array = np.asarray(points)
+    stream = io.BytesIO()
+    np.save(stream, array if points.z is None else np.column_stack([array, points.z]))
+    return stream.getvalue()
+
+
+def write_points_npz(points: Points) -> bytes:
+    """Return points as an archive of arrays: points, and z, crs, names and columns/NAME."""
+    return _archive({"points": np.asarray(points), **_carried(points)})
+
+
+def _carried(points: FloatArray) -> dict[str, Array]:
+    """Return what points carry, as arrays that need no pickle."""
+    attributes = attributes_of_points(points)
+    arrays: dict[str, Array] = {}
     for name, values in attributes.columns.items():
         text = values.dtype.kind == "O"  # which only a pickle could hold
         arrays[_PREFIX + name] = values.astype(np.str_) if text else values
@@ -56,8 +80,12 @@ def write_npz(curves: Curves, *, polygons: bool = False) -> bytes:
         arrays["z"] = attributes.z
     if attributes.crs is not None:
         arrays["crs"] = np.array(attributes.crs)
-    if isinstance(curves.points, Points):
-        arrays["names"] = np.array(curves.points.names)
+    if isinstance(points, Points):
+        arrays["names"] = np.array(points.names)
+    return arrays
+
+
+def _archive(arrays: dict[str, Any]) -> bytes:
     stream = io.BytesIO()
     np.savez(stream, **arrays)
     return stream.getvalue()

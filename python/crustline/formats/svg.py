@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from crustline.arrays import FloatArray, IntArray
-
-if TYPE_CHECKING:
-    from crustline.curves import Curves
+from crustline.curves import Curves
+from crustline.formats.attributes import without_curves
+from crustline.points import Points
 
 _WIDTH = 800
 _MARGIN = 0.03
@@ -60,6 +59,11 @@ def write_svg(curves: Curves, *, polygons: bool = False) -> bytes:
         "",
     ]
     return "\n".join(lines).encode()
+
+
+def write_points_svg(points: Points) -> bytes:
+    """Return a picture of points, as dots."""
+    return write_svg(without_curves(points))
 
 
 def _title(curves: Curves) -> str:

@@ -9,19 +9,16 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from crustline.arrays import FloatArray, IntArray
+from crustline.curves import Curves
 from crustline.errors import FormatError, InputError
-from crustline.formats.attributes import attributes_of, coordinates_with_height
+from crustline.formats.attributes import attributes_of, coordinates_with_height, without_curves
 from crustline.formats.crs import epsg_code
 from crustline.formats.file import as_text
 from crustline.points import Points
-
-if TYPE_CHECKING:
-    from crustline.curves import Curves
 
 # How many parentheses lie around the positions of a geometry, besides the innermost.
 _DEPTHS = {
@@ -228,6 +225,11 @@ def _number(text: str) -> float:
 def write_wkt(curves: Curves, *, polygons: bool = False) -> bytes:
     """Return the curves as text, a geometry a line, the isolated points as the last one."""
     return "".join(f"{line}\n" for line in _lines(curves, polygons)).encode()
+
+
+def write_points_wkt(points: Points) -> bytes:
+    """Return points as one MULTIPOINT."""
+    return write_wkt(without_curves(points))
 
 
 def _lines(curves: Curves, polygons: bool) -> Iterator[str]:

@@ -86,6 +86,12 @@ impl<'a> Near<'a> {
         Self { bend, samples, ends: [-ends[0], ends[1]] }
     }
 
+    /// Is the sample at `d` one of those within the stretch that the interpolant leaves out?
+    fn passes_over(&self, bend: &Option<Bend>, d: Point) -> bool {
+        let reach = self.ends[1].max(-self.ends[0]);
+        bend.is_none() && dot(d, d) <= reach * reach
+    }
+
     /// The largest curvature of a disk that touches at the sample and meets the stretch, on the side of `sign`.
     fn curvature(&self, sign: f64) -> f64 {
         let Bend { curvature, slope, second, .. } = *self.bend;
@@ -109,10 +115,10 @@ fn far_curvature(
     let normal = near.bend.normal().map(|x| sign * x);
     let mut largest: f64 = 0.0;
     for &q in delaunay.star(v).neighbors {
-        if near.samples[..2].contains(&Some(q)) {
+        let d = sub(delaunay.point(q), s);
+        if near.samples[..2].contains(&Some(q)) || near.passes_over(&bends[q as usize], d) {
             continue;
         }
-        let d = sub(delaunay.point(q), s);
         let through = 2.0 * dot(normal, d) / dot(d, d);
         if through <= 0.0 {
             continue;

@@ -4,6 +4,7 @@
 //! the three. Three such means, from five samples, determine a quadratic that has exactly these means. Where the means
 //! change abruptly, as from a line to an arc, its second derivative is limited so that it does not overshoot.
 
+use super::stencil::Scale;
 use crate::adjacency::Adjacency;
 use crate::delaunay::Delaunay;
 use crate::point::{Point, cross, dot, sub};
@@ -86,12 +87,13 @@ pub fn turned([x, y]: Point, angle: f64) -> Point {
 
 /// The interpolant at each vertex; `None` at isolated points and branches.
 #[must_use]
-pub fn bends(delaunay: &Delaunay, curve: &Adjacency) -> Vec<Option<Bend>> {
+pub fn bends(delaunay: &Delaunay, curve: &Adjacency, scale: &Scale) -> Vec<Option<Bend>> {
     let vertices = 0..delaunay.points().len() as u32;
     let circles: Vec<_> =
         vertices.clone().into_par_iter().map(|v| circle(delaunay, curve, v)).collect();
-    let seconds: Vec<f64> = vertices.clone().into_par_iter().map(|v| second(&circles, v)).collect();
-    vertices.into_par_iter().map(|v| bend(&circles, &seconds, v)).collect()
+    let seconds: Vec<f64> =
+        vertices.clone().into_par_iter().map(|v| second(&circles, scale, v)).collect();
+    vertices.into_par_iter().map(|v| bend(&circles, &seconds, scale, v)).collect()
 }
 
 /// The circle through a vertex and those adjacent to it; at an endpoint through it and the next two.
@@ -146,7 +148,7 @@ struct Means {
 }
 
 impl Means {
-    fn new(circles: &[Option<Bend>], v: u32) -> Option<Self> {
+    fn new(circles: &[Option<Bend>], scale: &Scale, v: u32) -> Option<Self> {
         let here = circles[v as usize].as_ref()?;
         let [Some(a), Some(b)] = here.adjacent else { return None };
         let (before, after) = (circles[a as usize].as_ref()?, circles[b as usize].as_ref()?);
@@ -157,6 +159,9 @@ impl Means {
         let [h1, h2] = here.reach;
         let h0 = before.reach[usize::from(signs[0] < 0.0)];
         let h3 = after.reach[usize::from(signs[1] > 0.0)];
+        if !scale.fits([h0, h1, h2, h3]) {
+            return None;
+        }
         let knots = [[-h1 - h0, -h1, 0.0], [-h1, 0.0, h2], [0.0, h2, h2 + h3]];
         Some(Self {
             curvature: [signs[0] * before.curvature, here.curvature, signs[1] * after.curvature],
@@ -177,13 +182,13 @@ impl Means {
     }
 }
 
-fn second(circles: &[Option<Bend>], v: u32) -> f64 {
-    Means::new(circles, v).map_or(0.0, |means| means.quadratic())
+fn second(circles: &[Option<Bend>], scale: &Scale, v: u32) -> f64 {
+    Means::new(circles, scale, v).map_or(0.0, |means| means.quadratic())
 }
 
-fn bend(circles: &[Option<Bend>], seconds: &[f64], v: u32) -> Option<Bend> {
+fn bend(circles: &[Option<Bend>], seconds: &[f64], scale: &Scale, v: u32) -> Option<Bend> {
     let mut bend = circles[v as usize]?;
-    let Some(means) = Means::new(circles, v) else { return Some(bend) };
+    let Some(means) = Means::new(circles, scale, v) else { return Some(bend) };
     let near = means.adjacent.map(|(vertex, sign)| sign * seconds[vertex as usize]);
     let second = limited(seconds[v as usize], near);
     let [k, m, moment] = [means.curvature, means.first, means.second];

@@ -7,6 +7,7 @@
 mod disks;
 mod interpolant;
 mod segments;
+mod stencil;
 
 use crate::adjacency::Adjacency;
 use crate::delaunay::Delaunay;
@@ -19,9 +20,12 @@ pub use interpolant::Bend;
 use interpolant::bends;
 use rayon::prelude::*;
 use segments::{Query, Segment, Tree};
+use stencil::{Scale, stencil};
 
 /// Centers farther apart than this part of the smaller radius are not linked: the axis may turn in between.
 const LINK: f64 = 1.0;
+/// Nor are those farther apart than this many times the samples that they belong to: rounding moved them.
+const LEAP: f64 = 32.0;
 /// Queries that one task takes at a time.
 const GRAIN: usize = 1 << 10;
 
@@ -38,7 +42,8 @@ impl FeatureSize {
     /// # Errors
     /// A cancelled `progress`.
     pub fn new(delaunay: &Delaunay, curve: &Adjacency, progress: &Progress) -> Result<Self> {
-        let bends = bends(delaunay, curve);
+        let scale = Scale::of(delaunay.points());
+        let bends = bends(delaunay, &*stencil(delaunay, curve, &scale, progress)?, &scale);
         progress.advance(0)?;
         let vertices = 0..delaunay.points().len() as u32;
         let disks: Vec<Disks> =
@@ -47,7 +52,7 @@ impl FeatureSize {
         let axis: Vec<Segment> =
             vertices.into_par_iter().flat_map_iter(|v| segments(&bends, &disks, v)).collect();
         progress.advance(0)?;
-        Ok(Self { bends, tree: Tree::new(&axis) })
+        Ok(Self { bends, tree: Tree::new(&axis, scale.bounds) })
     }
 
     /// The interpolant at each vertex; `None` at isolated points and branches.
@@ -97,31 +102,43 @@ pub fn feature_size(delaunay: &Delaunay, edges: &Edges, progress: &Progress) -> 
 }
 
 /// The segments of the axis that vertex `v` answers for: to its tip, and to the centers of later adjacent vertices.
+///
+/// A center that nothing is linked with is a segment of its own.
 fn segments(bends: &[Option<Bend>], disks: &[Disks], v: u32) -> Vec<Segment> {
     let mut segments = Vec::new();
     let (Some(bend), here) = (&bends[v as usize], &disks[v as usize]) else { return segments };
-    for side in 0..2 {
-        let Some(disk) = here.sides[side] else { continue };
-        segments.push(Segment { ends: [disk.center; 2], radius: disk.radius });
-        for next in bend.adjacent.into_iter().flatten().filter(|&next| next > v) {
+    if let Some((side, tip)) = here.tip {
+        let linked =
+            here.sides[side].and_then(|disk| link(disk, tip, bend.reach[0].max(bend.reach[1])));
+        segments.push(linked.unwrap_or_else(|| alone(tip)));
+    }
+    for (side, disk) in here.sides.iter().enumerate() {
+        let Some(disk) = *disk else { continue };
+        let mut is_alone = true;
+        for next in bend.adjacent.into_iter().flatten() {
             let Some(other) = &bends[next as usize] else { continue };
             let agrees = bend.direction(next) == -other.direction(v);
             let beyond = disks[next as usize].sides[if agrees { side } else { 1 - side }];
-            segments.extend(beyond.and_then(|beyond| link(disk, beyond)));
+            let step = bend.reach[usize::from(bend.direction(next) > 0.0)];
+            if let Some(segment) = beyond.and_then(|beyond| link(disk, beyond, step)) {
+                is_alone = false;
+                segments.extend((next > v).then_some(segment));
+            }
         }
-    }
-    if let Some((side, tip)) = here.tip {
-        let disk = here.sides[side];
-        segments.push(Segment { ends: [tip.center; 2], radius: tip.radius });
-        segments.extend(disk.and_then(|disk| link(disk, tip)));
+        segments.extend(is_alone.then(|| alone(disk)));
     }
     segments
 }
 
-/// The segment between two centers whose disks overlap well.
-fn link(a: Disk, b: Disk) -> Option<Segment> {
+/// A center by itself.
+fn alone(disk: Disk) -> Segment {
+    Segment { ends: [disk.center; 2], radius: disk.radius }
+}
+
+/// The segment between two centers whose disks overlap well, of samples `reach` apart.
+fn link(a: Disk, b: Disk, reach: f64) -> Option<Segment> {
     let step = sub(b.center, a.center);
     let radius = a.radius.min(b.radius);
-    (dot(step, step) <= (LINK * radius).powi(2))
+    (dot(step, step) <= (LINK * radius).min(LEAP * reach).powi(2))
         .then_some(Segment { ends: [a.center, b.center], radius })
 }

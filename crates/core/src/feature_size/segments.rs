@@ -9,9 +9,9 @@ use rayon::prelude::*;
 /// Children of a node.
 const FAN: usize = 8;
 /// A box is not opened for a gain smaller than this part of the squared distance.
-const GAIN: f64 = 1e-5;
+const GAIN: f64 = 1e-3;
 /// A segment within this part of its own radius of the last one kept is left out.
-const CROWDED: f64 = 1e-4;
+const CROWDED: f64 = 1e-3;
 
 /// A segment of the axis.
 #[derive(Debug, Clone, Copy)]
@@ -50,7 +50,7 @@ impl Segment {
 }
 
 /// A box: least x and y, then largest.
-type Bounds = [f64; 4];
+pub type Bounds = [f64; 4];
 
 const EMPTY: Bounds = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
 
@@ -81,9 +81,9 @@ pub struct Query {
 }
 
 impl Tree {
-    /// A tree of `segments`; those that crowd others are left out.
-    pub fn new(segments: &[Segment]) -> Self {
-        let segments = thinned(segments, &order(segments));
+    /// A tree of `segments`; those that crowd others are left out. Queries are within `bounds`.
+    pub fn new(segments: &[Segment], bounds: Bounds) -> Self {
+        let segments = thinned(segments, &order(segments, bounds));
         let mut levels = Vec::new();
         let mut boxes: Vec<Bounds> = segments.par_chunks(FAN).map(bounds_of).collect();
         while boxes.len() > 1 {
@@ -143,15 +143,19 @@ fn bounds_of(segments: &[Segment]) -> Bounds {
 }
 
 /// The numbers of the segments along a Z-order curve.
-fn order(segments: &[Segment]) -> Vec<u32> {
-    let middles = || segments.par_iter().map(Segment::middle);
-    let [x, y, right, top] = middles().map(|[x, y]| [x, y, x, y]).reduce(|| EMPTY, join);
-    let cells = f64::from(u16::MAX) / (right - x).max(top - y);
+///
+/// Its cells cover twice the extent of the queries: some centers are so far away that they would leave no cells for the rest.
+fn order(segments: &[Segment], [left, bottom, right, top]: Bounds) -> Vec<u32> {
+    let extent = (right - left).max(top - bottom);
+    let (x, y, cells) =
+        (left - extent / 2.0, bottom - extent / 2.0, f64::from(u16::MAX) / (2.0 * extent));
+    // The conversion saturates, so what is farther away is in the outermost cells.
     let code = |[px, py]: Point| {
         spread(((px - x) * cells) as u16) | spread(((py - y) * cells) as u16) << 1
     };
+    let numbered = segments.par_iter().enumerate();
     let mut keys: Vec<u64> =
-        middles().enumerate().map(|(k, middle)| code(middle) << 32 | k as u64).collect();
+        numbered.map(|(k, segment)| code(segment.middle()) << 32 | k as u64).collect();
     keys.par_sort_unstable();
     keys.into_par_iter().map(|key| key as u32).collect()
 }

@@ -47,7 +47,7 @@ fn sum_is_at_most_90(p: Point, q: Point, left: Point, right: Point) -> bool {
     if difference.abs() > bound + 1e-150 {
         return difference > 0.0;
     }
-    sign::sign(&CotangentProduct, p, &[q, left, right]) != Less
+    sign::exact_sign(&CotangentProduct, p, &[q, left, right]) != Less
 }
 
 /// An angle as the dot and cross product of its sides, and a bound on their size.

@@ -1,0 +1,71 @@
+//! What a certificate rests on: how densely the smooth interpolant of edges is sampled, edge by edge.
+
+use crate::adjacency::{Adjacency, vertices_of_rows};
+use crate::delaunay::Delaunay;
+use crate::edges::Edges;
+use crate::error::Result;
+use crate::feature_size::{Bend, FeatureSize};
+use crate::point::{Point, cross, dot, sub};
+use crate::progress::Progress;
+
+/// The measures of edges and rows.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Measures {
+    /// For each edge: the distance from the curve Voronoi vertex to its samples over the local feature size there.
+    /// Infinite where an end is a branch.
+    pub ratios: Vec<f64>,
+    /// For each row: the angle by which the polygon turns there; 0 unless it has two edges.
+    pub turns: Vec<f64>,
+    /// For each row: how many edges it has. A repeated row has those of the first of its kind.
+    pub degrees: Vec<u32>,
+}
+
+/// Measure `edges`, which are canonical.
+///
+/// The curve Voronoi vertex is where the dual of the edge meets the interpolant (paper, §5): beside the midpoint, by the
+/// height of the arc that has the mean curvature of the edge's ends. O(n log n).
+///
+/// # Errors
+/// A cancelled `progress`.
+pub fn measure(delaunay: &Delaunay, edges: &Edges, progress: &Progress) -> Result<Measures> {
+    let curve = Adjacency::new(delaunay, edges);
+    let axis = FeatureSize::new(delaunay, &curve, progress)?;
+    let vertices: Vec<(Point, f64)> =
+        curve.edges().iter().map(|&[p, q]| curve_vertex(delaunay, axis.bends(), p, q)).collect();
+    let places: Vec<Point> = vertices.iter().map(|&(place, _)| place).collect();
+    let sizes = axis.distances(&places, progress)?;
+    let vertex = vertices_of_rows(delaunay);
+    let ratio = |&[i, j]: &[u32; 2]| {
+        let [p, q] = [vertex[i as usize], vertex[j as usize]];
+        let number = curve.edge(p, q).filter(|_| curve.of(p).len() < 3 && curve.of(q).len() < 3);
+        number.map_or(f64::INFINITY, |k| vertices[k as usize].1 / sizes[k as usize])
+    };
+    Ok(Measures {
+        ratios: edges.iter().map(ratio).collect(),
+        turns: vertex.iter().map(|&v| turn(delaunay, &curve, v)).collect(),
+        degrees: vertex.iter().map(|&v| curve.of(v).len() as u32).collect(),
+    })
+}
+
+/// The curve Voronoi vertex of edge p q and its distance from p.
+fn curve_vertex(delaunay: &Delaunay, bends: &[Option<Bend>], p: u32, q: u32) -> (Point, f64) {
+    let from = delaunay.point(p);
+    let chord = sub(delaunay.point(q), from);
+    let curvatures = [(p, q, 1.0), (q, p, -1.0)].map(|(v, next, sign)| {
+        bends[v as usize].map(|bend| sign * bend.direction(next) * bend.curvature)
+    });
+    let known = curvatures.iter().flatten();
+    let curvature = known.clone().sum::<f64>() / (known.count().max(1) as f64);
+    // The height over the chord, as a part of it; a curve that turns left bulges to the right.
+    let height = (curvature * dot(chord, chord).sqrt() / 8.0).clamp(-0.5, 0.5);
+    let offset = [chord[0] / 2.0 + height * chord[1], chord[1] / 2.0 - height * chord[0]];
+    ([from[0] + offset[0], from[1] + offset[1]], dot(offset, offset).sqrt())
+}
+
+/// The angle by which the polygon turns at `v`.
+fn turn(delaunay: &Delaunay, curve: &Adjacency, v: u32) -> f64 {
+    let &[(a, _), (b, _)] = curve.of(v) else { return 0.0 };
+    let at = delaunay.point(v);
+    let (u, w) = (sub(at, delaunay.point(a)), sub(delaunay.point(b), at));
+    cross(u, w).atan2(dot(u, w)).abs()
+}

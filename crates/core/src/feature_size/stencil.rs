@@ -1,0 +1,111 @@
+//! The samples that the interpolant is made of: all but those so close together that rounding bends the curve between them.
+//!
+//! Three samples at distances h, each rounded by ε, give a curvature that is wrong by about 4 ε/h². Along a stretch as straight as its rounding
+//! lets one see, samples nearer than √(4 ε D/10⁻⁴) are passed over, so that the error is below 10⁻⁴ of the curvature of the extent D.
+
+use crate::adjacency::Adjacency;
+use crate::delaunay::Delaunay;
+use crate::edges::Edges;
+use crate::error::Result;
+use crate::point::{Point, cross, dot, sub};
+use crate::progress::Progress;
+use crate::trace::trace;
+use std::borrow::Cow;
+
+/// The error of a curvature, as a part of one over the extent, that rounding may cause.
+const ACCURACY: f64 = 1e-4;
+/// A turn by more than this (its sine) is seen whatever the distance.
+const TURN: f64 = 0.05;
+/// The same error, where a quadratic through five samples amplifies it.
+const FIT: f64 = 1e-2;
+/// A ring of fewer samples than this is kept whole.
+const FEWEST: usize = 8;
+
+/// `curve` without the samples that are too close together; itself in most cases.
+pub fn stencil<'a>(
+    delaunay: &Delaunay,
+    curve: &'a Adjacency,
+    scale: &Scale,
+    progress: &Progress,
+) -> Result<Cow<'a, Adjacency>> {
+    let short = |&[p, q]: &[u32; 2]| {
+        let step = sub(delaunay.point(q), delaunay.point(p));
+        dot(step, step) < scale.spacing * scale.spacing
+    };
+    if !curve.edges().iter().any(short) {
+        return Ok(Cow::Borrowed(curve));
+    }
+    let traced = trace(delaunay.points(), curve.edges(), progress)?;
+    let mut edges = Edges::new();
+    for (ends, &closed) in traced.offsets.windows(2).zip(&traced.closed) {
+        let whole = &traced.indices[ends[0]..ends[1]];
+        let kept = scale.kept(delaunay, whole, closed);
+        edges.extend(kept.windows(2).map(|pair| [pair[0].min(pair[1]), pair[0].max(pair[1])]));
+        if let (true, [first, .., last]) = (closed, &kept[..]) {
+            edges.push([*first.min(last), *first.max(last)]);
+        }
+    }
+    Ok(Cow::Owned(Adjacency::of_vertices(&[edges], delaunay.points().len())))
+}
+
+/// How closely rounding lets one look.
+pub struct Scale {
+    /// The box around the points: least x and y, then largest.
+    pub bounds: [f64; 4],
+    rounding: f64,
+    extent: f64,
+    spacing: f64,
+}
+
+impl Scale {
+    /// Of coordinates like those of `points`.
+    pub fn of(points: &[Point]) -> Self {
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for point in points {
+            for k in 0..2 {
+                (low[k], high[k]) = (low[k].min(point[k]), high[k].max(point[k]));
+            }
+        }
+        let largest = low.iter().chain(&high).fold(0.0, |most: f64, x| most.max(x.abs()));
+        let rounding = f64::EPSILON / 2.0 * largest;
+        let extent = (high[0] - low[0]).max(high[1] - low[1]);
+        let bounds = [low[0], low[1], high[0], high[1]];
+        Self { bounds, rounding, extent, spacing: (4.0 * rounding * extent / ACCURACY).sqrt() }
+    }
+
+    /// Does a quadratic through five samples, `steps` apart, make sense of their curvature?
+    pub fn fits(&self, steps: [f64; 4]) -> bool {
+        let shortest = steps.into_iter().fold(f64::INFINITY, f64::min);
+        let longest = steps.into_iter().fold(0.0, f64::max);
+        let error = 8.0 * self.rounding / (shortest * shortest);
+        error * (longest / shortest).powi(2) * self.extent <= FIT
+    }
+
+    /// The samples of a traced curve that are far enough from the last one kept, or where it turns.
+    fn kept(&self, delaunay: &Delaunay, curve: &[u32], closed: bool) -> Vec<u32> {
+        let mut kept = vec![curve[0]];
+        for (k, &vertex) in curve.iter().enumerate().skip(1) {
+            let next = match curve.get(k + 1) {
+                Some(&next) => next,
+                None if closed => curve[0],
+                None => {
+                    kept.push(vertex);
+                    continue;
+                }
+            };
+            let last = kept[kept.len() - 1];
+            if self.shows(delaunay.point(last), delaunay.point(vertex), delaunay.point(next)) {
+                kept.push(vertex);
+            }
+        }
+        if closed && kept.len() < FEWEST { curve.to_vec() } else { kept }
+    }
+
+    fn shows(&self, last: Point, here: Point, next: Point) -> bool {
+        let (u, v) = (sub(here, last), sub(next, here));
+        let [a, b] = [u, v].map(|step| dot(step, step).sqrt());
+        a >= self.spacing
+            || cross(u, v).abs() > TURN * a * b + 8.0 * self.rounding * (a + b)
+            || dot(u, v) < 0.0 && a.min(b) > 8.0 * self.rounding
+    }
+}
