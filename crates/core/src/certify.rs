@@ -57,7 +57,8 @@ fn curve_vertex(delaunay: &Delaunay, bends: &[Option<Bend>], p: u32, q: u32) -> 
     let known = curvatures.iter().flatten();
     let curvature = known.clone().sum::<f64>() / (known.count().max(1) as f64);
     // The height over the chord, as a part of it; a curve that turns left bulges to the right.
-    let height = (curvature * dot(chord, chord).sqrt() / 8.0).clamp(-0.5, 0.5);
+    let sine = (curvature * dot(chord, chord).sqrt() / 2.0).clamp(-1.0, 1.0);
+    let height = sine / (1.0 + (1.0 - sine * sine).sqrt()) / 2.0;
     let offset = [chord[0] / 2.0 + height * chord[1], chord[1] / 2.0 - height * chord[0]];
     ([from[0] + offset[0], from[1] + offset[1]], dot(offset, offset).sqrt())
 }

@@ -94,6 +94,15 @@ impl Mesh<'_> {
 ///
 /// Open curves do not separate. Neither do rings with an edge that is not in the triangulation.
 fn flipping(delaunay: &Delaunay, curve: &Adjacency, progress: &Progress) -> Result<Vec<bool>> {
+    let mut vertices = (0..delaunay.points().len() as u32).into_par_iter();
+    let simple = |v: u32| match curve.of(v) {
+        [] => true,
+        [(a, _), (b, _)] => [a, b].iter().all(|end| delaunay.star(v).neighbors.contains(end)),
+        _ => false,
+    };
+    if vertices.all(simple) {
+        return Ok(vec![true; curve.edges().len()]);
+    }
     let traced = trace(delaunay.points(), curve.edges(), progress)?;
     let mut flips = vec![false; curve.edges().len()];
     for (ends, _) in traced.offsets.windows(2).zip(&traced.closed).filter(|&(_, &closed)| closed) {

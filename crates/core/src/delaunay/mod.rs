@@ -147,7 +147,7 @@ fn stars(sorted: &Order, progress: &Progress) -> Result<(Stars, Vec<u32>)> {
         return Stars::collect(&[], 0, NONE, progress);
     }
     let vertices = Vertices { points: &sorted.points, codes: &sorted.codes };
-    let mut slots = vec![HalfEdge::FREE; SLOTS * count];
+    let mut slots = vec![HalfEdge::default(); SLOTS * count];
     let (extremes, _) = triangulate(vertices, (0, count), &mut slots, progress)?;
     Stars::collect(&slots, count, extremes.left.edge, progress)
 }

@@ -42,7 +42,8 @@ pub fn order(points: &[Point], progress: &Progress) -> Result<Order> {
     let mut keys = keys(points, &bounds, scale);
     sort_keys(&mut keys, progress)?;
     sort_runs(&mut keys, points);
-    Ok(collect(&keys, points, scale))
+    let duplicates = set_duplicates_aside(&mut keys, points);
+    Ok(Order { duplicates, ..collect(&keys, points, scale) })
 }
 
 /// The code and the row of a point.
@@ -181,23 +182,29 @@ fn sort_runs(keys: &mut [Key], points: &[Point]) {
     }
 }
 
-/// Keep the first row of each run of equal points; the others are duplicates.
-fn collect(keys: &[Key], points: &[Point], scale: f64) -> Order {
-    let mut order = Order { scale, ..Order::default() };
-    order.points.reserve_exact(keys.len());
-    order.rows.reserve_exact(keys.len());
-    order.codes.reserve_exact(keys.len());
-    for &(code, row) in keys {
-        let point = points[row as usize].map(|x| x * scale);
-        if order.points.last() == Some(&point) {
-            let first = *order.rows.last().expect("as many rows as points");
-            order.duplicates.push([row, first]);
-        } else {
-            order.points.push(point);
-            order.rows.push(row);
-            order.codes.push(code);
+/// Take all but the first row of each run of equal points out; return them with that first row, sorted.
+fn set_duplicates_aside(keys: &mut Vec<Key>, points: &[Point]) -> Vec<[u32; 2]> {
+    let mut duplicates = Vec::new();
+    keys.dedup_by(|&mut (code, row), &mut (first_code, first)| {
+        let is_equal = code == first_code && points[row as usize] == points[first as usize];
+        if is_equal {
+            duplicates.push([row, first]);
         }
+        is_equal
+    });
+    duplicates.sort_unstable();
+    duplicates
+}
+
+/// Fetch the points in the order of their keys.
+fn collect(keys: &[Key], points: &[Point], scale: f64) -> Order {
+    let point = |key: &Key| points[key.1 as usize].map(|x| x * scale);
+    let keys = keys.par_iter().with_min_len(GRAIN);
+    Order {
+        points: keys.clone().map(point).collect(),
+        rows: keys.clone().map(|key| key.1).collect(),
+        codes: keys.map(|key| key.0).collect(),
+        duplicates: Vec::new(),
+        scale,
     }
-    order.duplicates.sort_unstable();
-    order
 }

@@ -7,26 +7,31 @@
 /// No half-edge, or no vertex.
 pub const NONE: u32 = u32::MAX;
 
-/// A half-edge: where it starts, and its neighbors in the ring of half-edges that start there.
-#[derive(Debug, Clone, Copy)]
-pub struct HalfEdge {
-    /// The vertex that it starts at; `NONE` in a free slot.
-    pub origin: u32,
-    /// The next one counter-clockwise around the origin; in a free slot, the next free slot.
-    next: u32,
-    /// The next one clockwise around the origin.
-    prev: u32,
+/// A half-edge: the vertex that it starts at, plus 1; the next one counter-clockwise around that; the next one clockwise.
+///
+/// All zero in a slot never used: such memory comes from the system as it is, page by page, to the thread that uses it.
+pub type HalfEdge = [u32; 3];
+
+const ORIGIN: usize = 0;
+const NEXT: usize = 1;
+const PREV: usize = 2;
+
+/// The vertex that half-edge `e` starts at; `None` in a free slot.
+#[inline]
+pub fn origin(slots: &[HalfEdge], e: u32) -> Option<u32> {
+    slots[e as usize][ORIGIN].checked_sub(1)
 }
 
-impl HalfEdge {
-    /// A slot that holds no half-edge.
-    pub const FREE: Self = Self { origin: NONE, next: NONE, prev: NONE };
+/// The vertex that half-edge `e` ends at.
+#[inline]
+pub fn destination(slots: &[HalfEdge], e: u32) -> u32 {
+    slots[(e ^ 1) as usize][ORIGIN] - 1
+}
 
-    /// The next half-edge counter-clockwise around the origin.
-    #[inline]
-    pub fn next(self) -> u32 {
-        self.next
-    }
+/// The next half-edge counter-clockwise around the origin of `e`.
+#[inline]
+pub fn next(slots: &[HalfEdge], e: u32) -> u32 {
+    slots[e as usize][NEXT]
 }
 
 /// A planar graph on a range of vertices, in a slice of slots of its own.
@@ -85,25 +90,25 @@ impl<'a> Rings<'a> {
     /// The vertex that `e` starts at.
     #[inline]
     pub fn origin(&self, e: u32) -> u32 {
-        self.slot(e).origin
+        self.slot(e)[ORIGIN] - 1
     }
 
     /// The vertex that `e` ends at.
     #[inline]
     pub fn destination(&self, e: u32) -> u32 {
-        self.slot(e ^ 1).origin
+        self.slot(e ^ 1)[ORIGIN] - 1
     }
 
     /// The next half-edge counter-clockwise around the origin (Onext).
     #[inline]
     pub fn next(&self, e: u32) -> u32 {
-        self.slot(e).next
+        self.slot(e)[NEXT]
     }
 
     /// The next half-edge clockwise around the origin (Oprev).
     #[inline]
     pub fn prev(&self, e: u32) -> u32 {
-        self.slot(e).prev
+        self.slot(e)[PREV]
     }
 
     /// The next half-edge around the face to the left (Lnext).
@@ -126,17 +131,15 @@ impl<'a> Rings<'a> {
         let twin = e ^ 1;
         let prev = if before == NONE { e } else { self.prev(before) };
         let next = if after == NONE { twin } else { self.next(after) };
-        *self.slot_mut(e) =
-            HalfEdge { origin: a, next: if before == NONE { e } else { before }, prev };
-        *self.slot_mut(twin) =
-            HalfEdge { origin: b, next, prev: if after == NONE { twin } else { after } };
-        self.slot_mut(prev).next = e;
-        self.slot_mut(next).prev = twin;
+        *self.slot_mut(e) = [a + 1, if before == NONE { e } else { before }, prev];
+        *self.slot_mut(twin) = [b + 1, next, if after == NONE { twin } else { after }];
+        self.slot_mut(prev)[NEXT] = e;
+        self.slot_mut(next)[PREV] = twin;
         if before != NONE {
-            self.slot_mut(before).prev = e;
+            self.slot_mut(before)[PREV] = e;
         }
         if after != NONE {
-            self.slot_mut(after).next = twin;
+            self.slot_mut(after)[NEXT] = twin;
         }
         e
     }
@@ -145,14 +148,14 @@ impl<'a> Rings<'a> {
     #[inline]
     pub fn remove(&mut self, e: u32) {
         for half in [e, e ^ 1] {
-            let HalfEdge { next, prev, .. } = *self.slot(half);
-            self.slot_mut(prev).next = next;
-            self.slot_mut(next).prev = prev;
-            self.slot_mut(half).origin = NONE;
+            let [_, next, prev] = *self.slot(half);
+            self.slot_mut(prev)[NEXT] = next;
+            self.slot_mut(next)[PREV] = prev;
+            self.slot_mut(half)[ORIGIN] = 0;
         }
         let even = e & !1;
         let chain = std::mem::replace(&mut self.free.chain, even);
-        self.slot_mut(even).next = chain;
+        self.slot_mut(even)[NEXT] = chain;
     }
 
     /// A planar graph on k vertices has at most 3k − 6 edges, so there is always a slot.
@@ -161,7 +164,7 @@ impl<'a> Rings<'a> {
         loop {
             let e = self.free.chain;
             if e != NONE {
-                self.free.chain = self.slot(e).next;
+                self.free.chain = self.slot(e)[NEXT];
                 return e;
             }
             if let Some(e) = self.free.fresh.next() {

@@ -3,8 +3,7 @@
 //! This is all that selection needs: a wedge, two successive neighbors of a vertex, is a triangle, and its
 //! circumcenter a corner of the vertex's Voronoi cell.
 
-use super::divide::SLOTS;
-use super::rings::{HalfEdge, NONE};
+use super::rings::{self, HalfEdge, NONE};
 use crate::error::Result;
 use crate::progress::{Progress, Stage};
 use rayon::prelude::*;
@@ -83,20 +82,18 @@ impl Stars {
         progress: &Progress,
     ) -> Result<(Self, Vec<u32>)> {
         progress.enter(Stage::Stars, vertices)?;
-        let mut first = first_half_edges(slots, vertices);
+        let (mut first, offsets) = first_half_edges(slots, vertices);
         let hull = walk_hull(slots, hull, &mut first);
         let mut on_hull = vec![false; vertices];
         for &vertex in &hull {
             on_hull[vertex as usize] = true;
         }
-        let parts = first
-            .par_chunks(GRAIN)
-            .map(|first| {
-                progress.advance(first.len())?;
-                Ok(Part::collect(slots, first))
-            })
-            .collect::<Result<Vec<_>>>()?;
-        let (offsets, neighbors) = Part::concatenate(parts, vertices);
+        let mut neighbors = vec![0; offsets[vertices] as usize];
+        let parts = split(&mut neighbors, &offsets);
+        parts.into_par_iter().zip(first.par_chunks(GRAIN)).try_for_each(|(part, first)| {
+            collect_part(slots, first, part);
+            progress.advance(first.len())
+        })?;
         Ok((Self { offsets, neighbors, on_hull }, hull))
     }
 
@@ -133,13 +130,20 @@ impl Stars {
     }
 }
 
-/// A half-edge that starts at each vertex; `NONE` at a lone vertex.
-fn first_half_edges(slots: &[HalfEdge], vertices: usize) -> Vec<u32> {
+/// A half-edge that starts at each vertex, `NONE` at a lone vertex, and where each vertex's star is to start.
+fn first_half_edges(slots: &[HalfEdge], vertices: usize) -> (Vec<u32>, Vec<u32>) {
     let mut first = vec![NONE; vertices];
-    for (e, slot) in slots.iter().enumerate().filter(|(_, slot)| slot.origin != NONE) {
-        first[slot.origin as usize] = e as u32;
+    let mut offsets = vec![0; vertices + 1];
+    for e in 0..slots.len() as u32 {
+        if let Some(vertex) = rings::origin(slots, e) {
+            first[vertex as usize] = e;
+            offsets[vertex as usize + 1] += 1;
+        }
     }
-    first
+    for vertex in 0..vertices {
+        offsets[vertex + 1] += offsets[vertex];
+    }
+    (first, offsets)
 }
 
 /// The vertices of the hull, counter-clockwise; let each one's star start with the next.
@@ -147,10 +151,10 @@ fn walk_hull(slots: &[HalfEdge], start: u32, first: &mut [u32]) -> Vec<u32> {
     let mut hull = Vec::new();
     let mut e = start;
     while e != NONE {
-        let vertex = slots[e as usize].origin;
+        let vertex = rings::destination(slots, e ^ 1);
         hull.push(vertex);
         first[vertex as usize] = e;
-        e = slots[(e ^ 1) as usize].next();
+        e = rings::next(slots, e ^ 1);
         if e == start {
             break;
         }
@@ -158,43 +162,31 @@ fn walk_hull(slots: &[HalfEdge], start: u32, first: &mut [u32]) -> Vec<u32> {
     hull
 }
 
-/// The stars of some successive vertices.
-struct Part {
-    degrees: Vec<u32>,
-    neighbors: Vec<u32>,
+/// The parts of all neighbors that belong to `GRAIN` successive vertices each.
+fn split<'a>(mut neighbors: &'a mut [u32], offsets: &[u32]) -> Vec<&'a mut [u32]> {
+    let mut parts = Vec::new();
+    let last = offsets.len() - 1;
+    for start in (0..last).step_by(GRAIN) {
+        let length = offsets[(start + GRAIN).min(last)] - offsets[start];
+        let (part, rest) = neighbors.split_at_mut(length as usize);
+        parts.push(part);
+        neighbors = rest;
+    }
+    parts
 }
 
-impl Part {
-    fn collect(slots: &[HalfEdge], first: &[u32]) -> Self {
-        let mut degrees = Vec::with_capacity(first.len());
-        let mut neighbors = Vec::with_capacity(SLOTS * first.len());
-        for &start in first {
-            let before = neighbors.len();
-            let mut e = start;
-            while e != NONE {
-                neighbors.push(slots[(e ^ 1) as usize].origin);
-                e = slots[e as usize].next();
-                if e == start {
-                    break;
-                }
+/// Write the stars of the vertices with the half-edges `first` one after another.
+fn collect_part(slots: &[HalfEdge], first: &[u32], part: &mut [u32]) {
+    let mut end = part.iter_mut();
+    for &start in first.iter().filter(|&&start| start != NONE) {
+        let mut e = start;
+        loop {
+            let neighbor = end.next().expect("as many neighbors as half-edges");
+            *neighbor = rings::destination(slots, e);
+            e = rings::next(slots, e);
+            if e == start {
+                break;
             }
-            degrees.push((neighbors.len() - before) as u32);
         }
-        Self { degrees, neighbors }
-    }
-
-    fn concatenate(parts: Vec<Self>, vertices: usize) -> (Vec<u32>, Vec<u32>) {
-        let mut offsets = Vec::with_capacity(vertices + 1);
-        let mut neighbors = Vec::with_capacity(parts.iter().map(|p| p.neighbors.len()).sum());
-        let mut end = 0;
-        offsets.push(end);
-        for part in parts {
-            for degree in part.degrees {
-                end += degree;
-                offsets.push(end);
-            }
-            neighbors.extend(part.neighbors);
-        }
-        (offsets, neighbors)
     }
 }

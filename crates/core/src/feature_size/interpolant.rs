@@ -43,6 +43,12 @@ impl Bend {
         if self.adjacent[1] == Some(next) { 1.0 } else { -1.0 }
     }
 
+    /// The longer of the arcs to the adjacent samples.
+    #[must_use]
+    pub fn longest(&self) -> f64 {
+        self.reach[0].max(self.reach[1])
+    }
+
     /// The curvature at arc length `s` from the sample.
     #[must_use]
     pub fn curvature_at(&self, s: f64) -> f64 {

@@ -104,30 +104,41 @@ pub fn feature_size(delaunay: &Delaunay, edges: &Edges, progress: &Progress) -> 
 /// The segments of the axis that vertex `v` answers for: to its tip, and to the centers of later adjacent vertices.
 ///
 /// A center that nothing is linked with is a segment of its own.
-fn segments(bends: &[Option<Bend>], disks: &[Disks], v: u32) -> Vec<Segment> {
-    let mut segments = Vec::new();
-    let (Some(bend), here) = (&bends[v as usize], &disks[v as usize]) else { return segments };
-    if let Some((side, tip)) = here.tip {
-        let linked =
-            here.sides[side].and_then(|disk| link(disk, tip, bend.reach[0].max(bend.reach[1])));
-        segments.push(linked.unwrap_or_else(|| alone(tip)));
-    }
-    for (side, disk) in here.sides.iter().enumerate() {
-        let Some(disk) = *disk else { continue };
-        let mut is_alone = true;
-        for next in bend.adjacent.into_iter().flatten() {
-            let Some(other) = &bends[next as usize] else { continue };
-            let agrees = bend.direction(next) == -other.direction(v);
-            let beyond = disks[next as usize].sides[if agrees { side } else { 1 - side }];
-            let step = bend.reach[usize::from(bend.direction(next) > 0.0)];
-            if let Some(segment) = beyond.and_then(|beyond| link(disk, beyond, step)) {
-                is_alone = false;
-                segments.extend((next > v).then_some(segment));
+fn segments(bends: &[Option<Bend>], disks: &[Disks], v: u32) -> impl Iterator<Item = Segment> {
+    // A tip, and on each side two links or a center.
+    let mut segments = [None; 5];
+    if let Some(bend) = &bends[v as usize] {
+        let here = &disks[v as usize];
+        segments[4] = here.tip.map(|(side, tip)| {
+            let linked = here.sides[side].and_then(|disk| link(disk, tip, bend.longest()));
+            linked.unwrap_or_else(|| alone(tip))
+        });
+        for side in 0..2 {
+            let links = [0, 1].map(|end| next_link(bends, disks, v, (side, end)));
+            for end in 0..2 {
+                segments[2 * side + end] = links[end].filter(|_| bend.adjacent[end] > Some(v));
+            }
+            if links == [None; 2] {
+                segments[2 * side] = here.sides[side].map(alone);
             }
         }
-        segments.extend(is_alone.then(|| alone(disk)));
     }
-    segments
+    segments.into_iter().flatten()
+}
+
+/// The link on a side of `v` to the center of the adjacent vertex at one end.
+fn next_link(
+    bends: &[Option<Bend>],
+    disks: &[Disks],
+    v: u32,
+    (side, end): (usize, usize),
+) -> Option<Segment> {
+    let bend = bends[v as usize].as_ref()?;
+    let next = bend.adjacent[end]?;
+    let other = bends[next as usize].as_ref()?;
+    let agrees = bend.direction(next) == -other.direction(v);
+    let beyond = disks[next as usize].sides[if agrees { side } else { 1 - side }]?;
+    link(disks[v as usize].sides[side]?, beyond, bend.reach[end])
 }
 
 /// A center by itself.

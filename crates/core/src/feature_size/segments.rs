@@ -14,7 +14,7 @@ const GAIN: f64 = 1e-3;
 const CROWDED: f64 = 1e-3;
 
 /// A segment of the axis.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {
     /// The ends, perhaps the same.
     pub ends: [Point; 2],

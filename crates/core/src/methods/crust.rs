@@ -103,7 +103,12 @@ fn has_room(s: Point, end: Point, neighbor: Point) -> bool {
     /// More than all relative roundings below.
     const DOUBT: f64 = 1e-14;
     let (d, g) = (sub(end, s), sub(neighbor, s));
-    let (far, along, aside) = (dot(g, g), dot(d, g), cross(d, g));
+    let (length, far) = (dot(d, d), dot(g, g));
+    if far > 4.001 * length {
+        // The disk is nowhere further from s than |d|, and the bisector is at |g| / 2.
+        return true;
+    }
+    let (along, aside) = (dot(d, g), cross(d, g));
     let size = far + along.abs() + aside.abs();
     if along > DOUBT * size {
         let room = far - along - aside.abs();
@@ -111,7 +116,7 @@ fn has_room(s: Point, end: Point, neighbor: Point) -> bool {
             || room > -DOUBT * size && sign::exact_sign(&RoomAhead, s, &[end, neighbor]) != Less;
     }
     let room = far - along;
-    let excess = room * room - dot(d, d) * far;
+    let excess = room * room - length * far;
     excess > DOUBT * size * size
         || excess > -DOUBT * size * size
             && sign::exact_sign(&RoomBehind, s, &[end, neighbor]) != Less

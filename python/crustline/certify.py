@@ -1,0 +1,291 @@
+"""The certificate: whether the theory guarantees some edges, for the points at hand, and where not."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from crustline import _core
+from crustline.arrays import BoolArray, FloatArray, IntArray, as_edges
+from crustline.delaunay import Delaunay
+from crustline.methods import beta_skeleton, crust, triangulation
+from crustline.theory import guaranteed_r, sample_angle
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["BETA", "MARGIN", "Certificate", "certify"]
+
+#: The β of Theorem 20.
+BETA = 1.70
+#: By how much an estimate of the sampling ratio may be too small before a guarantee would be wrong.
+MARGIN = 0.15
+
+Reasons = npt.NDArray[np.str_]
+
+
+@dataclass(frozen=True, eq=False)
+class Certificate:
+    """What is guaranteed about edges, by which theorem, and what breaks the guarantee.
+
+    Attributes
+    ----------
+    points : ndarray of float64, shape (n, 2)
+        The points.
+    edges : ndarray of int64, shape (m, 2)
+        The edges that the certificate is about: i < j in each row, rows sorted.
+    ratio : ndarray of float64, shape (m,)
+        For each edge an estimate of the sampling ratio there: the distance from the curve Voronoi
+        vertex to its two samples over the local feature size, both of the smooth interpolant.
+        Infinite where there is no smooth interpolant.
+    sampling_ratio : float
+        The largest of them; infinite if there are no edges.
+    threshold : float
+        The r that the theorem asks for; 0 if the edges are those of no method that has a theorem.
+    guaranteed : bool
+        Whether the edges are all rings, are what a method with a theorem selects, and have a
+        sampling ratio below the threshold, with a margin.
+    theorem : str
+        The theorem that applies to the edges; "" if none does.
+    promise : str
+        What the theorem says, in one sentence.
+    edge_reason : ndarray of str, shape (m,)
+        Why an edge breaks the guarantee: "unselected" (no method selects it), "branch",
+        "endpoint", "corner" (it touches one) or "undersampled"; "" if it does not.
+    point_reason : ndarray of str, shape (n,)
+        The same for points: "isolated", "branch", "endpoint", "corner", "missing" (a method has
+        an edge here that is not among the edges), "undersampled".
+    """
+
+    points: FloatArray
+    edges: IntArray
+    ratio: FloatArray
+    sampling_ratio: float
+    threshold: float
+    guaranteed: bool
+    theorem: str
+    promise: str
+    edge_reason: Reasons
+    point_reason: Reasons
+
+    @property
+    def weak(self) -> IntArray:
+        """Rows of `edges` that break the guarantee, sorted: more samples are needed there."""
+        return np.flatnonzero(self.edge_reason != "")
+
+    @property
+    def weak_points(self) -> IntArray:
+        """Rows of `points` that break the guarantee, sorted."""
+        return np.flatnonzero(self.point_reason != "")
+
+    def summary(self) -> str:
+        """Return the certificate in words: what is proven, what is estimated, what breaks it."""
+        lines = [f"{'Guaranteed' if self.guaranteed else 'Not guaranteed'}: {self._finding()}"]
+        if self.theorem:
+            lines.append(f"Proven: {self.promise}")
+        if len(self.edges):
+            lines.append(self._estimate())
+        lines.extend(self._breaks())
+        return "\n".join(lines)
+
+    __str__ = summary
+
+    def _finding(self) -> str:
+        count = f"{len(self.edges)} edges between {len(self.points)} points"
+        if not self.theorem:
+            return f"{count}, which are not what a method with a theorem selects from the points."
+        return f"{count}, to which {self.theorem} applies."
+
+    def _estimate(self) -> str:
+        worst = int(np.argmax(self.ratio))
+        i, j = self.edges[worst]
+        verdict = ""
+        if self.theorem:
+            side = "below" if self._is_dense() else "not below"
+            verdict = f"; with a margin of {MARGIN:.0%} this is {side} {self.threshold:.5f}"
+        return (
+            f"Estimated: the smooth interpolant of these edges is {self.sampling_ratio:.3g}-sampled by "
+            f"the points, at worst between points {i} and {j}{verdict}. The curve that the points "
+            "were taken from is not known; samples too sparse for it may be dense for another one."
+        )
+
+    def _is_dense(self) -> bool:
+        return (1 + MARGIN) * self.sampling_ratio < self.threshold
+
+    def _breaks(self) -> list[str]:
+        lines = []
+        for noun, reasons in (("edge", self.edge_reason), ("point", self.point_reason)):
+            words, counts = np.unique(reasons[reasons != ""], return_counts=True)
+            if len(words):
+                parts = (f"{n} {word}" for word, n in zip(words, counts, strict=True))
+                lines.append(f"Broken at {noun}s: {', '.join(parts)}.")
+        return lines
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the certificate as plain Python values, for JSON; infinite ratios are None."""
+        return {
+            "guaranteed": self.guaranteed,
+            "theorem": self.theorem,
+            "promise": self.promise,
+            "threshold": self.threshold,
+            "margin": MARGIN,
+            "sampling_ratio": _finite(self.sampling_ratio),
+            "points": len(self.points),
+            "edges": self.edges.tolist(),
+            "ratio": [_finite(value) for value in self.ratio.tolist()],
+            "weak": _named(self.weak, self.edge_reason),
+            "weak_points": _named(self.weak_points, self.point_reason),
+            "summary": self.summary(),
+        }
+
+    def plot(self, ax: Axes | None = None, **options: Any) -> Axes:
+        """Draw the certificate with matplotlib; see `crustline.plot.plot_certificate`."""
+        from crustline.plot import plot_certificate
+
+        return plot_certificate(self, ax, **options)
+
+    def __repr__(self) -> str:
+        word = "guaranteed" if self.guaranteed else f"not guaranteed, {len(self.weak)} weak edges"
+        return f"<Certificate: {word}; sampling ratio about {self.sampling_ratio:.3g}>"
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _named(rows: IntArray, reasons: Reasons) -> list[dict[str, Any]]:
+    pairs = zip(rows.tolist(), reasons[rows].tolist(), strict=True)
+    return [{"row": row, "reason": reason} for row, reason in pairs]
+
+
+def certify(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = None) -> Certificate:
+    """Return a certificate: whether the theory guarantees edges, and what breaks the guarantee.
+
+    Parameters
+    ----------
+    points : array_like of float, shape (n, 2), or Delaunay
+        Coordinates, in any one unit. Finite. Repeated points count once, at their first row.
+    edges : array_like of int, shape (m, 2), optional
+        Rows of points, from any method or by hand; by default the crust.
+
+    Returns
+    -------
+    certificate : Certificate
+        `certificate.guaranteed` says whether, ``print(certificate)`` why.
+
+    Raises
+    ------
+    InputError
+        If the points or edges do not fit; the message names the first row at fault.
+
+    Notes
+    -----
+    *Proven*, exactly, about the edges: that they form rings through all points, and that they are
+    the crust, or the β-skeleton for β = 1.70, of the points. From the theorem of that method it
+    follows: if the points are an r-sample, for an r below the threshold, of any smooth curve
+    whatever, then these edges are its polygonal reconstruction. So there is at most one, and it is
+    this one.
+
+    *Estimated*: that they are an r-sample of the curve that these edges suggest, their smooth
+    interpolant (see `crustline.medial.feature_size_of_samples`). The estimate must be below the
+    threshold with a margin of 15 % to spare.
+
+    *Not known*: the curve that the points were taken from. Samples that are too sparse for it may
+    happen to be dense for another curve; no one could tell from the points.
+
+    A turn of more than 4 arcsin(r/2) at a point is a corner: by Lemma 10 no r-sampled smooth curve
+    has it. O(n log n) time.
+
+    EXPERIMENT
+
+    References
+    ----------
+    .. [1] N. Amenta, M. Bern, D. Eppstein, "The Crust and the β-Skeleton: Combinatorial Curve
+       Reconstruction", Graphical Models and Image Processing 60 (1998), 125-135. Theorems 14, 15
+       and 20, Lemma 10.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> angle = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+    >>> circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    >>> certify(circle)
+    <Certificate: guaranteed; sampling ratio about 0.131>
+    >>> certify(circle[::4])
+    <Certificate: not guaranteed, 6 weak edges; sampling ratio about 0.518>
+    """
+    delaunay = triangulation(points, None, None)
+    chosen = crust(delaunay) if edges is None else as_edges(edges, len(delaunay))
+    ratio, turn, degree = _core.certify(delaunay._core, chosen)
+    theorem, threshold, differing = _theorem(delaunay, chosen)
+    asked = threshold or guaranteed_r("beta_skeleton", BETA)
+    point_reason = _point_reasons(degree, turn > math.pi - float(sample_angle(asked)), differing, chosen)
+    sparse = ~((1 + MARGIN) * ratio < asked)
+    edge_reason = _edge_reasons(chosen, point_reason, sparse, differing)
+    touched = np.unique(chosen[edge_reason == "undersampled"])
+    point_reason[touched[point_reason[touched] == ""]] = "undersampled"
+    largest = float(ratio.max()) if len(ratio) else math.inf
+    sound = not (edge_reason != "").any() and not (point_reason != "").any()
+    return Certificate(
+        points=delaunay.points,
+        edges=chosen,
+        ratio=ratio,
+        sampling_ratio=largest,
+        threshold=threshold,
+        guaranteed=bool(theorem and len(chosen) and sound),
+        theorem=theorem,
+        promise=_promise(threshold) if theorem else "",
+        edge_reason=edge_reason,
+        point_reason=point_reason,
+    )
+
+
+def _theorem(delaunay: Delaunay, edges: IntArray) -> tuple[str, float, IntArray]:
+    """Return the theorem for edges, its r, and if there is none the crust's edges."""
+    if np.array_equal(edges, beta_skeleton(delaunay, BETA)):
+        return "Theorem 20 (β-skeleton, β = 1.70)", guaranteed_r("beta_skeleton", BETA), edges
+    selected = crust(delaunay)
+    if np.array_equal(edges, selected):
+        return "Theorems 14 and 15 (crust)", guaranteed_r("crust"), edges
+    return "", 0.0, selected
+
+
+def _promise(threshold: float) -> str:
+    return (
+        f"if the points are an r-sample, r < {threshold:.5f}, of any smooth closed curve (of one or "
+        "more components), then these edges join exactly the samples adjacent along it."
+    )
+
+
+def _point_reasons(
+    degree: IntArray, corner: BoolArray, selected: IntArray, edges: IntArray
+) -> Reasons:
+    reasons = np.full(len(degree), "", dtype="<U12")
+    reasons[np.unique(_without(selected, edges, len(degree)))] = "missing"
+    reasons[corner] = "corner"
+    reasons[degree == 0] = "isolated"
+    reasons[degree == 1] = "endpoint"
+    reasons[degree > 2] = "branch"
+    return reasons
+
+
+def _edge_reasons(
+    edges: IntArray, point_reason: Reasons, sparse: BoolArray, selected: IntArray
+) -> Reasons:
+    reasons = np.where(sparse, "undersampled", "").astype("<U12")
+    for reason in ("corner", "endpoint", "branch"):
+        reasons[(point_reason[edges] == reason).any(axis=1)] = reason
+    keys, n = edges @ [len(point_reason), 1], len(point_reason)
+    reasons[np.isin(keys, _without(edges, selected, n) @ [n, 1])] = "unselected"
+    return reasons
+
+
+def _without(edges: IntArray, others: IntArray, n: int) -> IntArray:
+    """Return those of the edges between n points that are not among the others."""
+    if edges is others:
+        return edges[:0]
+    return edges[~np.isin(edges @ [n, 1], others @ [n, 1])]

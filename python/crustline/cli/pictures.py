@@ -1,0 +1,102 @@
+"""`crustline plot`: points and what is computed from them; `crustline smooth`: splines in SVG."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import click
+
+from crustline.cli.method import Method, method_options
+from crustline.cli.output import Output, counted, picture_options
+from crustline.cli.reconstruct import select_edges
+from crustline.cli.source import Source, source_options
+from crustline.errors import InputError
+
+LAYERS = (
+    "points", "delaunay", "voronoi", "crust", "medial-axis", "lfs", "certificate", "indices",
+)  # fmt: skip
+
+
+@click.command()
+@source_options
+@picture_options(".png", ".svg", ".pdf")
+@click.option("--show", default="points,crust", show_default=True, metavar="WORDS",
+              help=f"What to draw, any of {', '.join(LAYERS)}.")  # fmt: skip
+@method_options
+def plot(source: Source, output: Output, show: str, method: Method) -> None:
+    """Draw points and what is computed from them.
+
+    INPUT is a file of points; - is standard input. Writes a picture: `crust`
+    is the curves that the method finds, `lfs` colors points by their local feature size, `indices`
+    numbers them. Needs matplotlib: pip install 'crustline[plot]'.
+
+    \b
+        crustline plot goose.csv -o goose.png --show points,crust,medial-axis
+    """
+    layers = [word.strip() for word in show.split(",")]
+    for word in layers:
+        if word not in LAYERS:
+            raise InputError(f"--show {word!r} is unknown: choose from {', '.join(LAYERS)}")
+
+    from crustline.plot import picture
+
+    points = source.read()
+    chosen = partial(method.function, **method.parameters)
+    for file in output.files:
+        picture(points, file, show=layers, method=chosen)
+    output.report(
+        f"{source.name}: {counted(len(points), 'point')}",
+        {"input": source.name, "method": method.name, "points": len(points), "show": layers},
+    )
+
+
+@click.command()
+@source_options
+@picture_options(".svg", pipe=True)
+@click.option(
+    "--tolerance", type=float, metavar="T",
+    help="As few Bézier pieces as stay within T of the splines, in the unit of the points. "
+    "[default: the splines themselves]",
+)  # fmt: skip
+@click.option(
+    "--corner-angle", type=float, default=60.0, show_default=True, metavar="DEGREES",
+    help="A point at which the curve turns by this or more is a corner.",
+)  # fmt: skip
+@method_options
+def smooth(
+    source: Source, output: Output, tolerance: float | None, corner_angle: float, method: Method
+) -> None:
+    """Draw smooth curves through points.
+
+    INPUT is a file of points; - is standard input. Writes an SVG of
+    cubic Bézier paths, one for each ring and line: splines with continuous curvature, but at
+    corners. Needs scipy: pip install 'crustline[smooth]'.
+
+    \b
+        crustline smooth goose.csv -o goose.svg --tolerance 0.1
+    """
+    if tolerance is not None and not 0 < tolerance < float("inf"):
+        raise InputError(f"--tolerance is {tolerance}: give a length above 0")
+    if not 0 < corner_angle <= 180:
+        raise InputError(f"--corner-angle is {corner_angle}: give degrees in (0, 180]")
+    points, _, edges = select_edges(source, method, output.quiet)
+
+    from crustline.smooth import smooth
+
+    splines = smooth(points, edges, corner_angle=corner_angle)
+    pieces = sum(map(len, splines.beziers(tolerance)))
+    corners = sum(len(spline.corners) for spline in splines)
+    for file in output.files:
+        splines.write(file, tolerance=tolerance)
+    counts = {"curves": len(splines), "pieces": pieces, "corners": corners}
+    words = ("curve", "piece", "corner")
+    output.report(
+        f"{source.name}: {', '.join(map(counted, counts.values(), words))}",
+        {
+            "input": source.name,
+            "method": method.name,
+            "points": len(points),
+            "tolerance": tolerance,
+            **counts,
+        },
+    )

@@ -1,0 +1,207 @@
+"""`crustline sample`: a smooth curve to points; `crustline thin`: points to fewer points."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import click
+import numpy as np
+
+from crustline.cli.method import Method, method_options
+from crustline.cli.output import POINTS, Output, counted, output_options
+from crustline.cli.reconstruct import select_edges
+from crustline.cli.source import Source, source_options
+from crustline.errors import FormatError, InputError
+
+if TYPE_CHECKING:
+    from crustline.sampling import Sample
+    from crustline.shapes import SmoothCurve
+
+#: Powers of what is larger, or smaller than its inverse, leave the range of doubles.
+LARGEST = 1e60
+SHAPES = ("circle", "ellipse", "stadium", "trefoil", "blob", "superformula")
+
+
+@click.command()
+@click.argument("shape", metavar="SHAPE|SVG")
+@click.option(
+    "-r", type=float, metavar="R",
+    help="Every point p of the curve gets a sample within R · LFS(p); 0 < R ≤ 1.",
+)  # fmt: skip
+@click.option(
+    "--error", type=float, metavar="D",
+    help="Instead, or too: the polygon through the samples stays within D of the curve.",
+)  # fmt: skip
+@click.option("--mode", type=click.Choice(["sparsest", "random"]), default="sparsest",
+              show_default=True, help="Steps as long as possible, or random ones.")  # fmt: skip
+@click.option(
+    "--seed", type=click.IntRange(min=0), metavar="N",
+    help="Where each loop starts, random steps and --shuffle; the same for the same N.",
+)  # fmt: skip
+@click.option("--shuffle", is_flag=True, help="Write the points in random order.")
+@output_options(POINTS, "write_points", required=True)
+def sample(
+    shape: str,
+    r: float | None,
+    error: float | None,
+    mode: Any,
+    seed: int | None,
+    shuffle: bool,
+    output: Output,
+) -> None:
+    """Sample a smooth curve as the theory asks.
+
+    SHAPE is one of these, with its parameters (crustline.shapes says what they are), or the path of
+    an SVG file, whose closed paths are taken, with y downwards as there:
+
+    \b
+        circle  circle:R  ellipse:A,B  stadium:LENGTH,RADIUS  blob:SEED
+        trefoil  trefoil:LOBES,DEPTH,RADIUS  superformula:M,N1,N2,N3
+        blob:7,roughness=0.2
+
+    Writes the points, in order along the curve, with t, where on the curve they are. The crust of
+    samples with R < 0.252 is sure to be the curve's polygon.
+
+    \b
+        crustline sample ellipse:2,1 -r 0.25 -o points.csv
+    """
+    taken = _take(_curve(shape), r, error, seed, mode)
+    rows = np.arange(len(taken))
+    if shuffle:
+        np.random.default_rng(seed).shuffle(rows)
+
+    from crustline.points import Points
+
+    points = Points(taken.points[rows], columns={"t": taken.t[rows]})
+    output.write(points.write)
+    output.report(
+        f"{shape}: {counted(len(points), 'point')}",
+        {"shape": shape, "r": r, "error": error, "mode": mode, "points": len(points)},
+    )
+
+
+def _take(
+    curve: SmoothCurve, r: float | None, error: float | None, seed: int | None, mode: Any
+) -> Sample:
+    from crustline.sampling import r_sample, sample_for_error
+
+    if error is not None:
+        if not (error > 0 and np.isfinite(error)):
+            raise InputError(f"--error is {error}: give a distance above 0")
+        options = {} if r is None else {"r": r}
+        return sample_for_error(curve, error, seed=seed, mode=mode, **options)
+    if r is None:
+        raise InputError("how dense the samples are is not said: add -r R, such as -r 0.25")
+    return r_sample(curve, r, seed, mode)
+
+
+def _curve(spec: str) -> SmoothCurve:
+    """Return the curve that a word such as ellipse:2,1 or the name of an SVG file means."""
+    from crustline import shapes
+
+    if spec.lower().endswith(".svg"):
+        return _curve_of_svg(spec)
+    name, _, values = spec.partition(":")
+    if name not in SHAPES:
+        raise InputError(
+            f"no shape is called {name!r}: choose one of {', '.join(SHAPES)}, or an SVG file"
+        )
+    function = getattr(shapes, name)
+    arguments, named = _arguments(spec, values)
+    _check_arguments(spec, function, arguments, named)
+    curve: SmoothCurve = function(*arguments, **named)
+    return curve
+
+
+def _curve_of_svg(path: str) -> SmoothCurve:
+    from crustline.formats.file import read_bytes
+    from crustline.shapes import bezier_path
+
+    read_bytes(path)  # which says what is wrong with a file that cannot be read
+    try:
+        return bezier_path(path)
+    except SyntaxError as error:  # what XML parsers raise
+        raise FormatError(f"{path} is no SVG: {error}") from None
+    except InputError as error:
+        raise InputError(f"{path}: {str(error).removeprefix(f'{path} ')}") from None
+
+
+def _arguments(spec: str, values: str) -> tuple[list[float], dict[str, float]]:
+    arguments: list[float] = []
+    named: dict[str, float] = {}
+    for value in filter(None, values.split(",")):
+        name, equals, number = value.rpartition("=")
+        try:
+            parsed = int(number) if number.lstrip("+-").isdigit() else float(number)
+        except ValueError:
+            raise InputError(f"the shape {spec!r} holds {number!r}: give a number") from None
+        if equals:
+            named[name] = parsed
+        else:
+            arguments.append(parsed)
+    return arguments, named
+
+
+def _check_arguments(
+    spec: str, function: Callable[..., Any], arguments: list[float], named: dict[str, float]
+) -> None:
+    from inspect import signature
+
+    known = signature(function)
+    try:
+        given = known.bind(*arguments, **named).arguments
+    except TypeError as error:
+        words = ", ".join(known.parameters)
+        raise InputError(
+            f"the shape {spec!r} is not {function.__name__}:{words}: {error}"
+        ) from None
+    for name, value in given.items():
+        whole = known.parameters[name].annotation == "int"
+        if whole and not (isinstance(value, int) and value >= 0):
+            raise InputError(
+                f"the shape {spec!r}: {name} is {value}: give a whole number from 0 on"
+            )
+        if value != 0 and not 1 / LARGEST < abs(value) < LARGEST:
+            raise InputError(
+                f"the shape {spec!r}: {name} is {value}: give a number between {1 / LARGEST:g} "
+                f"and {LARGEST:g}"
+            )
+
+
+@click.command()
+@source_options
+@click.option(
+    "-r", type=float, required=True, metavar="R",
+    help="How far from a kept point, in parts of the local feature size; 0 < R ≤ 1.",
+)  # fmt: skip
+@output_options(POINTS, "write_points")
+@method_options
+def thin(source: Source, r: float, output: Output, method: Method) -> None:
+    """Drop the points that the curves do not need.
+
+    INPUT is a file of points; - is standard input. Every point p of the reconstruction keeps one
+    within R · LFS(p). Writes the points that are kept, in the order of the input, with their
+    heights, columns and CRS. With R = 0.2 their crust is in general the same curve.
+
+    \b
+        crustline thin scan.csv -r 0.2 -o fewer.csv
+    """
+    if not 0 < r <= 1:
+        raise InputError(f"-r is {r}: give a number in (0, 1], such as 0.2")
+    points, _, edges = select_edges(source, method, output.quiet)
+
+    from crustline.sampling import thin
+
+    kept = points.select(thin(points, edges, r))
+    output.write(kept.write)
+    output.report(
+        f"{source.name}: {counted(len(kept), 'point')} of {len(points):,} kept",
+        {
+            "input": source.name,
+            "method": method.name,
+            "r": r,
+            "points": len(points),
+            "kept": len(kept),
+        },
+    )
