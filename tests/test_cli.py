@@ -192,6 +192,236 @@ def test_an_output_without_permission(run, tmp_path):
     assert "permission" in err
 
 
+# What the paper knows
+
+
+@pytest.fixture
+def goose(run, examples, tmp_path):
+    """Run a command on the goose, beside which its outputs are written."""
+    (tmp_path / "goose.csv").write_bytes((examples / "goose.csv").read_bytes())
+
+    def on_goose(command, *arguments):
+        return run(command, "goose.csv", *arguments)
+
+    return on_goose
+
+
+EXAMPLES = ("reconstruct", "certify", "medial-axis", "thin", "plot", "smooth", "sample")
+
+
+@pytest.mark.parametrize("command", EXAMPLES)
+def test_help_has_an_example_that_runs(run, goose, tmp_path, command):
+    _, out, _ = run(command, "--help")
+    lines = [line.split() for line in out.splitlines() if line.strip().startswith("crustline ")]
+    assert lines
+    (tmp_path / "scan.csv").write_bytes((tmp_path / "goose.csv").read_bytes())
+    for words in lines:
+        for module in {"plot": ["matplotlib"], "smooth": ["scipy"]}.get(command, []):
+            pytest.importorskip(module)
+        code, _, err = run(*words[1:])
+        assert code == 0, err
+
+
+def test_medial_axis_is_within_the_box_and_has_its_parts(goose, tmp_path):
+    for part in ("--inner", "--outer"):
+        code, _, err = goose("medial-axis", "-o", f"{part[2:]}.csv", "-o", f"{part[2:]}.svg", part)
+        assert code == 0
+        assert f"wrote {part[2:]}.csv, {part[2:]}.svg" in err
+    goose("medial-axis", "-o", "all.csv", "--box", "0,0,50,60")
+    points = read(tmp_path / "goose.csv")
+    inner, outer = read(tmp_path / "inner.csv"), read(tmp_path / "outer.csv")
+    assert (inner >= points.min(axis=0)).all()
+    assert (inner <= points.max(axis=0)).all()
+    margin = 0.25 * np.ptp(points, axis=0).max()
+    assert np.isclose(outer.min(), points.min(axis=0)[1] - margin)  # where the rays are cut off
+    clipped = read(tmp_path / "all.csv")
+    assert clipped.min() >= 0
+    assert (clipped.max(axis=0) <= (50, 60)).all()
+
+
+def test_medial_axis_is_pruned(goose):
+    counts = []
+    for length in ("0", "2", "1e6"):
+        _, out, _ = goose("medial-axis", "--prune", length, "--json")
+        counts.append(json.loads(out)["inner_edges"])
+    assert counts[0] > counts[1] > counts[2]
+
+
+def test_thin_keeps_columns_and_the_curve(run, tmp_path):
+    code, _, _ = run("sample", "blob:7", "-r", "0.02", "-o", "scan.csv", "--shuffle", "--seed", "1")
+    assert code == 0
+    scan = read(tmp_path / "scan.csv")
+    code, out, _ = run("thin", "scan.csv", "-r", "0.2", "-o", "a.csv", "-o", "a.geojson", "--json")
+    summary = json.loads(out)
+    assert code == 0
+    assert summary["kept"] < 0.3 * summary["points"]
+    for name in ("a.csv", "a.geojson"):
+        kept = read(tmp_path / name)
+        rows = np.flatnonzero(np.isin(scan.columns["t"], kept.columns["t"]))
+        assert len(rows) == summary["kept"]
+        assert np.array_equal(kept, scan[rows])
+        assert np.array_equal(kept.columns["t"], scan.columns["t"][rows])
+    _, out, _ = run("reconstruct", "a.csv", "--json")
+    assert json.loads(out)["rings"] == 1
+    assert json.loads(out)["isolated"] == json.loads(out)["open_curves"] == 0
+
+
+def test_sample_is_what_was_asked_for(run, tmp_path):
+    from crustline import sampling_ratio, shapes
+
+    for r in (0.2, 0.8):
+        assert run("sample", "ellipse:2,b=1", "-r", str(r), "-o", "p.csv", "-q") == (0, "", "")
+        points = read(tmp_path / "p.csv")
+        assert sampling_ratio(shapes.ellipse(2, 1), points) <= r
+        assert np.allclose(shapes.ellipse(2, 1).point(points.columns["t"]), points)
+    _, out, _ = run("sample", "circle", "--error", "0.001", "-o", "p.npy", "--json")
+    assert json.loads(out)["points"] == 71
+
+
+def test_a_shuffle_moves_whole_rows(run, tmp_path):
+    for name, words in (("a.csv", ()), ("b.csv", ("--shuffle",)), ("c.csv", ("--shuffle",))):
+        run("sample", "trefoil", "-r", "0.5", "--seed", "3", "-o", name, *words)
+    a, b = read(tmp_path / "a.csv"), read(tmp_path / "b.csv")
+    order = np.argsort(b.columns["t"])
+    assert np.array_equal(b[order], a[np.argsort(a.columns["t"])])
+    assert not np.array_equal(a, b)
+    assert (tmp_path / "b.csv").read_bytes() == (tmp_path / "c.csv").read_bytes()
+
+
+def test_a_smooth_ring_can_be_sampled_again(run, tmp_path):
+    pytest.importorskip("scipy")
+    pytest.importorskip("svgelements")
+    run("sample", "blob:3", "-r", "0.2", "--shuffle", "-o", "p.csv")
+    code, out, _ = run("smooth", "p.csv", "-o", "ring.svg", "--json")
+    assert (code, json.loads(out)["curves"], json.loads(out)["corners"]) == (0, 1, 0)
+    code, _, _ = run("sample", "ring.svg", "-r", "0.25", "-o", "again.csv")
+    assert code == 0
+    _, out, _ = run("reconstruct", "again.csv", "--json")
+    assert json.loads(out)["rings"] == 1
+
+
+def test_tolerance_makes_few_pieces(goose):
+    pytest.importorskip("scipy")
+    _, out, _ = goose("smooth", "-o", "a.svg", "--json")
+    _, fewer, err = goose("smooth", "-o", "-", "--tolerance", "0.5", "--json")
+    assert fewer.startswith("<svg")
+    assert json.loads(err)["pieces"] < json.loads(out)["pieces"] / 3
+
+
+def test_pictures_of_all_layers(goose, tmp_path):
+    pytest.importorskip("matplotlib")
+    starts = {"a.png": b"\x89PNG", "a.svg": b"<?xml", "a.pdf": b"%PDF"}
+    outputs = [word for name in starts for word in ("-o", name)]
+    code, _, err = goose("plot", *outputs, "--show", "delaunay, voronoi,medial-axis,lfs,indices")
+    assert code == 0
+    assert "wrote a.png, a.svg, a.pdf" in err
+    for name, start in starts.items():
+        assert (tmp_path / name).read_bytes().startswith(start)
+
+
+def test_a_missing_extra_is_named(goose, monkeypatch, tmp_path):
+    for module in ("matplotlib", "scipy", "svgelements", "scipy.interpolate"):
+        monkeypatch.setitem(sys.modules, module, None)
+    (tmp_path / "ring.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg"/>')
+    with pytest.raises(SystemExit):
+        main(["sample", "ring.svg", "-r", "0.2", "-o", "a.csv"])
+    for arguments, extra in (
+        (["plot", "-o", "a.png"], "plot"),
+        (["smooth", "-o", "a.svg"], "smooth"),
+    ):
+        code, out, err = goose(*arguments)
+        assert (code, out) == (2, "")
+        assert f"pip install 'crustline[{extra}]'" in err.splitlines()[-1]
+
+
+BAD_USES = [
+    (["certify"], ["INPUT"]),
+    (["certify", "none.csv"], ["none.csv"]),
+    (["certify", "square.csv", "-o", "weak.shp"], ["weak.shp", ".xyz"]),
+    (["medial-axis", "square.csv", "--prune", "-1"], ["--prune", "-1"]),
+    (["medial-axis", "square.csv", "--prune", "nan"], ["--prune", "nan"]),
+    (["medial-axis", "square.csv", "--box", "1,2,3"], ["--box", "1,2,3"]),
+    (["medial-axis", "square.csv", "--box", "1,2,0,3"], ["--box", "1,2,0,3"]),
+    (["medial-axis", "square.csv", "--box", "0,0,inf,inf"], ["--box", "inf"]),
+    (["medial-axis", "square.csv", "-o", "none/a.csv"], ["none/a.csv", "folder"]),
+    (["thin", "square.csv"], ["-r"]),
+    (["thin", "square.csv", "-r", "0"], ["-r", "0.0"]),
+    (["thin", "square.csv", "-r", "1.5"], ["-r", "1.5"]),
+    (["thin", "square.csv", "-r", "nan"], ["-r", "nan"]),
+    (["thin", "square.csv", "-r", "much"], ["-r", "much"]),
+    (["thin", "square.csv", "-r", "0.2", "-o", "-"], ["--output-format"]),
+    (["sample", "square", "-r", "0.2", "-o", "a.csv"], ["'square'", "ellipse", "SVG"]),
+    (["sample", "ellipse:2,1", "-o", "a.csv"], ["-r"]),
+    (["sample", "ellipse:2,1", "-r", "0.2"], ["--output"]),
+    (["sample", "ellipse:2,1", "-r", "2", "-o", "a.csv"], ["r must be", "2"]),
+    (["sample", "ellipse:2,1", "--error", "0", "-o", "a.csv"], ["--error", "0"]),
+    (["sample", "ellipse:2", "-r", "0.2", "-o", "a.csv"], ["'ellipse:2'", "a, b"]),
+    (["sample", "ellipse:2,x", "-r", "0.2", "-o", "a.csv"], ["'ellipse:2,x'", "'x'"]),
+    (["sample", "ellipse:2,1e300", "-r", "0.2", "-o", "a.csv"], ["b is 1e+300"]),
+    (["sample", "blob:1.5", "-r", "0.2", "-o", "a.csv"], ["seed", "1.5"]),
+    (["sample", "blob:-1", "-r", "0.2", "-o", "a.csv"], ["seed", "-1"]),
+    (["sample", "none.svg", "-r", "0.2", "-o", "a.csv"], ["none.svg", "no such file"]),
+    (["sample", "circle", "-r", "0.2", "-o", "a.csv", "--mode", "odd"], ["--mode", "odd"]),
+    (["plot", "square.csv"], ["--output"]),
+    (["plot", "square.csv", "-o", "a.gif"], ["a.gif", ".pdf"]),
+    (["plot", "square.csv", "-o", "-"], ["'-'", ".pdf"]),
+    (["plot", "square.csv", "-o", "a.png", "--show", "points,magic"], ["'magic'", "medial-axis"]),
+    (["plot", "square.csv", "-o", "none/a.png"], ["none/a.png", "folder"]),
+    (["smooth", "square.csv", "-o", "a.png"], ["a.png", ".svg"]),
+    (["smooth", "square.csv", "-o", "a.svg", "--tolerance", "0"], ["--tolerance", "0"]),
+    (["smooth", "square.csv", "-o", "a.svg", "--corner-angle", "181"], ["--corner-angle", "181"]),
+]
+
+
+@pytest.mark.parametrize(("arguments", "words"), BAD_USES)
+def test_a_bad_use_is_one_line_and_no_file(run, tmp_path, arguments, words):
+    assert_refused(run(*arguments), tmp_path, words)
+
+
+def test_a_broken_svg_is_one_line(run, tmp_path):
+    pytest.importorskip("svgelements")
+    head = '<svg xmlns="http://www.w3.org/2000/svg">'
+    for name, text, word in (
+        ("cut.svg", "<svg", "no SVG"),
+        ("none.svg", f"{head}</svg>", "no path"),
+        ("open.svg", f'{head}<path d="M0 0L1 0L1 1"/></svg>', "open"),
+        ("square.svg", f'{head}<path d="M0 0H1V1H0Z"/></svg>', "corner"),
+    ):
+        (tmp_path / name).write_text(text)
+        code, out, err = run("sample", name, "-r", "0.2", "-o", "a.csv")
+        assert (code, out, err.count("\n")) == (2, "", 1)
+        assert f"error: {name}" in err
+        assert word in err
+
+
+def test_certify_says_why_in_words_and_in_json(run, tmp_path):
+    run("sample", "circle", "-r", "0.2", "-o", "dense.csv", "--shuffle")
+    code, out, err = run("certify", "dense.csv", "--strict")
+    assert (code, err) == (0, "")
+    assert out.startswith("Guaranteed")
+    code, out, err = run("certify", "dense.csv", "--json")
+    report = json.loads(out)
+    assert (code, err, report["guaranteed"], report["input"]) == (0, "", True, "dense.csv")
+    assert run("certify", "dense.csv", "-q") == (0, "", "")
+
+
+def test_certify_writes_where_more_samples_are_needed(run, tmp_path):
+    assert run("certify", "square.csv", "--strict", "-q")[0] == 1
+    code, out, _ = run("certify", "square.csv", "-o", "weak.csv", "-o", "weak.geojson")
+    assert code == 0
+    assert out.startswith("Not guaranteed")
+    for name in ("weak.csv", "weak.geojson"):
+        weak = read(tmp_path / name)
+        square = read(tmp_path / "square.csv")
+        assert len(weak)
+        assert np.array_equal(weak, square[weak.columns["row"]])
+        assert set(weak.columns["reason"]) <= {"undersampled", "corner"}
+        assert weak.columns["name"].tolist() == square.columns["name"][weak.columns["row"]].tolist()
+    code, out, err = run("certify", "square.csv", "-o", "-", "--output-format", "csv", "--json")
+    assert out.startswith("x,y,row,reason,name\n")
+    assert json.loads(err)["guaranteed"] is False
+
+
 def process(*arguments, **options):
     command = [sys.executable, "-m", "crustline", *arguments]
     return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)

@@ -223,7 +223,7 @@ def test_reading_gives_back_what_was_written(tmp_path_factory, rows):
         [row[:2] for row in rows], columns={"text": np.array([row[2] for row in rows], dtype=str)}
     )
     path = tmp_path_factory.mktemp("csv") / "points.csv"
-    write(trace(points, []), path)
+    points.write(path)
     again = read(path)
     assert again.tobytes() == points.tobytes()
     if again.columns["text"].dtype.kind == "O":  # else all of them were numbers

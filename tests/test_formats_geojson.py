@@ -238,7 +238,7 @@ def test_reading_gives_back_what_was_written(tmp_path_factory, rows):
     texts = np.array([row[3] for row in rows], dtype=str)
     points = Points([row[:2] for row in rows], z=[row[2] for row in rows], columns={"text": texts})
     path = tmp_path_factory.mktemp("geojson") / "points.geojson"
-    write(trace(points, []), path)
+    points.write(path)
     again = read(path)
     assert again.tobytes() == points.tobytes()
     if rows:

@@ -138,7 +138,7 @@ def test_reading_gives_back_what_was_written(tmp_path_factory, rows, heights):
     table = np.array(rows)
     points = Points(table[:, :2], z=table[:, 2] if heights else None)
     path = tmp_path_factory.mktemp("wkt") / "points.wkt"
-    write(trace(points, []), path)
+    points.write(path)
     again = read(path)
     assert again.tobytes() == points.tobytes()
     assert (again.z is None) == (not heights)

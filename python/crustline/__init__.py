@@ -9,6 +9,7 @@ The path that data takes::
 
 from crustline import shapes, theory
 from crustline._core import __version__
+from crustline.certify import Certificate, certify
 from crustline.curves import Curve, Curves, Polygon, reconstruct, trace
 from crustline.delaunay import Delaunay
 from crustline.errors import CrustlineError, FormatError, InputError, MissingExtraError
@@ -44,6 +45,7 @@ from crustline.theory import guaranteed_r
 
 __all__ = [
     "METHODS",
+    "Certificate",
     "CrustlineError",
     "Curve",
     "Curves",
@@ -61,6 +63,7 @@ __all__ = [
     "a_shape",
     "alpha_shape",
     "beta_skeleton",
+    "certify",
     "crossing_angle_graph",
     "crust",
     "gabriel",

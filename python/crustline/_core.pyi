@@ -6,13 +6,13 @@ from numpy.typing import NDArray
 
 __all__ = [
     "Delaunay",
+    "FeatureSize",
     "__version__",
     "a_shape",
     "alpha_shape",
     "beta_skeleton",
     "crossing_angle_graph",
     "crust",
-    "feature_size",
     "gabriel",
     "gamma_graph",
     "medial_axis",
@@ -113,5 +113,10 @@ def minimum_spanning_tree(
 def trace(
     points: _Floats, edges: _Integers
 ) -> tuple[_Integers, _Integers, NDArray[np.bool_], _Integers]: ...
-def feature_size(delaunay: Delaunay, edges: _Integers) -> _Floats: ...
 def medial_axis(delaunay: Delaunay, edges: _Integers) -> dict[str, NDArray[Any]]: ...
+
+@final
+class FeatureSize:
+    def __new__(cls, delaunay: Delaunay, edges: _Integers) -> FeatureSize: ...
+    def sizes(self) -> _Floats: ...
+    def measures(self) -> tuple[_Floats, _Floats, _Integers]: ...

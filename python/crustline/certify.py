@@ -1,4 +1,4 @@
-"""The certificate: whether the theory guarantees some edges, for the points at hand, and where not."""
+"""The certificate: whether the theory guarantees edges of the points at hand, and where not."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from crustline import _core
 from crustline.arrays import BoolArray, FloatArray, IntArray, as_edges
 from crustline.delaunay import Delaunay
+from crustline.medial import interpolant
 from crustline.methods import beta_skeleton, crust, triangulation
 from crustline.theory import guaranteed_r, sample_angle
 
@@ -25,6 +25,13 @@ BETA = 1.70
 #: By how much an estimate of the sampling ratio may be too small before a guarantee would be wrong.
 MARGIN = 0.15
 
+#: The reasons, from none to the gravest; an edge has the gravest of those that hold.
+REASONS = np.array(
+    ["", "undersampled", "missing", "corner", "endpoint", "branch", "isolated", "unselected"]
+)
+UNDERSAMPLED, MISSING, CORNER, ENDPOINT, BRANCH, ISOLATED, UNSELECTED = range(1, len(REASONS))
+
+Codes = npt.NDArray[np.int8]
 Reasons = npt.NDArray[np.str_]
 
 
@@ -108,8 +115,8 @@ class Certificate:
             side = "below" if self._is_dense() else "not below"
             verdict = f"; with a margin of {MARGIN:.0%} this is {side} {self.threshold:.5f}"
         return (
-            f"Estimated: the smooth interpolant of these edges is {self.sampling_ratio:.3g}-sampled by "
-            f"the points, at worst between points {i} and {j}{verdict}. The curve that the points "
+            f"Estimated: these points {self.sampling_ratio:.3g}-sample the smooth interpolant of the "
+            f"edges, at worst between points {i} and {j}{verdict}. The curve that the points "
             "were taken from is not known; samples too sparse for it may be dense for another one."
         )
 
@@ -220,16 +227,18 @@ def certify(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = None
     """
     delaunay = triangulation(points, None, None)
     chosen = crust(delaunay) if edges is None else as_edges(edges, len(delaunay))
-    ratio, turn, degree = _core.certify(delaunay._core, chosen)
+    ratio, turn, degree = interpolant(delaunay, chosen).measures()
     theorem, threshold, differing = _theorem(delaunay, chosen)
     asked = threshold or guaranteed_r("beta_skeleton", BETA)
-    point_reason = _point_reasons(degree, turn > math.pi - float(sample_angle(asked)), differing, chosen)
+    corner = turn > math.pi - float(sample_angle(asked))
+    of_points = _reasons_of_points(degree, corner, _without(differing, chosen, len(delaunay)))
     sparse = ~((1 + MARGIN) * ratio < asked)
-    edge_reason = _edge_reasons(chosen, point_reason, sparse, differing)
-    touched = np.unique(chosen[edge_reason == "undersampled"])
-    point_reason[touched[point_reason[touched] == ""]] = "undersampled"
+    of_edges = _reasons_of_edges(chosen, of_points, sparse)
+    of_edges[_is_without(chosen, differing, len(delaunay))] = UNSELECTED
+    touched = chosen[of_edges == UNDERSAMPLED].ravel()
+    of_points[touched] = np.maximum(of_points[touched], UNDERSAMPLED)
     largest = float(ratio.max()) if len(ratio) else math.inf
-    sound = not (edge_reason != "").any() and not (point_reason != "").any()
+    sound = not of_edges.any() and not of_points.any()
     return Certificate(
         points=delaunay.points,
         edges=chosen,
@@ -239,8 +248,8 @@ def certify(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = None
         guaranteed=bool(theorem and len(chosen) and sound),
         theorem=theorem,
         promise=_promise(threshold) if theorem else "",
-        edge_reason=edge_reason,
-        point_reason=point_reason,
+        edge_reason=REASONS[of_edges],
+        point_reason=REASONS[of_points],
     )
 
 
@@ -256,36 +265,34 @@ def _theorem(delaunay: Delaunay, edges: IntArray) -> tuple[str, float, IntArray]
 
 def _promise(threshold: float) -> str:
     return (
-        f"if the points are an r-sample, r < {threshold:.5f}, of any smooth closed curve (of one or "
-        "more components), then these edges join exactly the samples adjacent along it."
+        f"if the points are an r-sample, r < {threshold:.5f}, of any smooth closed curve "
+        "(of one or more components), then these edges join exactly the samples adjacent along it."
     )
 
 
-def _point_reasons(
-    degree: IntArray, corner: BoolArray, selected: IntArray, edges: IntArray
-) -> Reasons:
-    reasons = np.full(len(degree), "", dtype="<U12")
-    reasons[np.unique(_without(selected, edges, len(degree)))] = "missing"
-    reasons[corner] = "corner"
-    reasons[degree == 0] = "isolated"
-    reasons[degree == 1] = "endpoint"
-    reasons[degree > 2] = "branch"
+def _reasons_of_points(degree: IntArray, corner: BoolArray, missing: IntArray) -> Codes:
+    reasons = np.zeros(len(degree), np.int8)
+    reasons[missing] = MISSING
+    reasons[corner] = CORNER
+    reasons[degree == 1] = ENDPOINT
+    reasons[degree > 2] = BRANCH
+    reasons[degree == 0] = ISOLATED
     return reasons
 
 
-def _edge_reasons(
-    edges: IntArray, point_reason: Reasons, sparse: BoolArray, selected: IntArray
-) -> Reasons:
-    reasons = np.where(sparse, "undersampled", "").astype("<U12")
-    for reason in ("corner", "endpoint", "branch"):
-        reasons[(point_reason[edges] == reason).any(axis=1)] = reason
-    keys, n = edges @ [len(point_reason), 1], len(point_reason)
-    reasons[np.isin(keys, _without(edges, selected, n) @ [n, 1])] = "unselected"
-    return reasons
+def _reasons_of_edges(edges: IntArray, of_points: Codes, sparse: BoolArray) -> Codes:
+    """Return for each edge the gravest reason of its ends, or that it is undersampled."""
+    ends = np.where((of_points >= CORNER) & (of_points <= BRANCH), of_points, 0).astype(np.int8)
+    worst = np.maximum(ends[edges[:, 0]], ends[edges[:, 1]])
+    return np.maximum(worst, np.where(sparse, np.int8(UNDERSAMPLED), np.int8(0)))
 
 
 def _without(edges: IntArray, others: IntArray, n: int) -> IntArray:
     """Return those of the edges between n points that are not among the others."""
+    return edges[_is_without(edges, others, n)]
+
+
+def _is_without(edges: IntArray, others: IntArray, n: int) -> BoolArray:
     if edges is others:
-        return edges[:0]
-    return edges[~np.isin(edges @ [n, 1], others @ [n, 1])]
+        return np.zeros(len(edges), bool)
+    return ~np.isin(edges @ [n, 1], others @ [n, 1])

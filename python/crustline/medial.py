@@ -9,6 +9,7 @@ import os
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
+from weakref import WeakKeyDictionary
 
 import numpy as np
 import numpy.typing as npt
@@ -384,8 +385,24 @@ def feature_size_of_samples(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLi
     array([1., 1., 1.])
     """
     delaunay = triangulation(points, None, None)
-    sizes: FloatArray = _core.feature_size(delaunay._core, as_edges(edges, len(delaunay)))
+    sizes: FloatArray = interpolant(delaunay, as_edges(edges, len(delaunay))).sizes()
     return sizes
+
+
+_latest: WeakKeyDictionary[Delaunay, tuple[IntArray, Any]] = WeakKeyDictionary()
+
+
+def interpolant(delaunay: Delaunay, edges: IntArray) -> Any:
+    """Return the smooth interpolant of edges and its axis, kept for the triangulation's next call.
+
+    The local feature size and the certificate rest on the same, and it is most of their work.
+    """
+    known = _latest.get(delaunay)
+    if known is not None and np.array_equal(known[0], edges):
+        return known[1]
+    made = _core.FeatureSize(delaunay._core, edges)
+    _latest[delaunay] = edges.copy(), made
+    return made
 
 
 def _as_box(box: npt.ArrayLike) -> FloatArray:

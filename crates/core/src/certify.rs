@@ -3,10 +3,9 @@
 use crate::adjacency::{Adjacency, vertices_of_rows};
 use crate::delaunay::Delaunay;
 use crate::edges::Edges;
-use crate::error::Result;
 use crate::feature_size::{Bend, FeatureSize};
 use crate::point::{Point, cross, dot, sub};
-use crate::progress::Progress;
+use rayon::prelude::*;
 
 /// The measures of edges and rows.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -23,28 +22,24 @@ pub struct Measures {
 /// Measure `edges`, which are canonical.
 ///
 /// The curve Voronoi vertex is where the dual of the edge meets the interpolant (paper, §5): beside the midpoint, by the
-/// height of the arc that has the mean curvature of the edge's ends. O(n log n).
-///
-/// # Errors
-/// A cancelled `progress`.
-pub fn measure(delaunay: &Delaunay, edges: &Edges, progress: &Progress) -> Result<Measures> {
-    let curve = Adjacency::new(delaunay, edges);
-    let axis = FeatureSize::new(delaunay, &curve, progress)?;
-    let vertices: Vec<(Point, f64)> =
-        curve.edges().iter().map(|&[p, q]| curve_vertex(delaunay, axis.bends(), p, q)).collect();
-    let places: Vec<Point> = vertices.iter().map(|&(place, _)| place).collect();
-    let sizes = axis.distances(&places, progress)?;
+/// height of the arc that has the mean curvature of the edge's ends. Linear time.
+#[must_use]
+pub fn measure(delaunay: &Delaunay, edges: &Edges, axis: &FeatureSize) -> Measures {
+    let curve = axis.curve();
     let vertex = vertices_of_rows(delaunay);
     let ratio = |&[i, j]: &[u32; 2]| {
         let [p, q] = [vertex[i as usize], vertex[j as usize]];
-        let number = curve.edge(p, q).filter(|_| curve.of(p).len() < 3 && curve.of(q).len() < 3);
-        number.map_or(f64::INFINITY, |k| vertices[k as usize].1 / sizes[k as usize])
+        if p == q || curve.of(p).len() > 2 || curve.of(q).len() > 2 {
+            return f64::INFINITY;
+        }
+        let (place, distance) = curve_vertex(delaunay, axis.bends(), p, q);
+        distance / axis.between(p, q, place)
     };
-    Ok(Measures {
-        ratios: edges.iter().map(ratio).collect(),
-        turns: vertex.iter().map(|&v| turn(delaunay, &curve, v)).collect(),
-        degrees: vertex.iter().map(|&v| curve.of(v).len() as u32).collect(),
-    })
+    Measures {
+        ratios: edges.par_iter().map(ratio).collect(),
+        turns: vertex.par_iter().map(|&v| turn(delaunay, curve, v)).collect(),
+        degrees: vertex.par_iter().map(|&v| curve.of(v).len() as u32).collect(),
+    }
 }
 
 /// The curve Voronoi vertex of edge p q and its distance from p.

@@ -70,8 +70,7 @@ pub struct Sighting {
     point: Point,
     vector: Point,
     lift: f64,
-    /// The cross product of the base and the vector, before its two products are subtracted.
-    products: [f64; 2],
+    /// The cross product of the base and the vector.
     turn: f64,
 }
 
@@ -89,17 +88,16 @@ impl Base {
     #[must_use]
     pub fn sight(&self, point: Point) -> Sighting {
         let vector = sub(point, self.a);
-        let products = [self.vector[0] * vector[1], self.vector[1] * vector[0]];
-        let turn = products[0] - products[1];
-        Sighting { point, vector, lift: dot(vector, vector), products, turn }
+        Sighting { point, vector, lift: dot(vector, vector), turn: cross(self.vector, vector) }
     }
 
     /// Is the point strictly to the left of the base?
     #[inline]
     #[must_use]
     pub fn is_left(&self, c: &Sighting) -> bool {
-        let bound = ORIENT_BOUND * (c.products[0].abs() + c.products[1].abs()) + UNDERFLOW;
-        if c.turn.abs() > bound {
+        let (u, v) = (self.vector, c.vector);
+        let size = (u[0] * v[1]).abs() + (u[1] * v[0]).abs();
+        if c.turn.abs() > ORIENT_BOUND * size + UNDERFLOW {
             return c.turn > 0.0;
         }
         exact_orientation(self.a, self.b, c.point) == Greater

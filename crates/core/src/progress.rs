@@ -6,6 +6,9 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 /// The stages of a call, in the order in which they run.
 pub const STAGES: [&str; 5] = ["sort", "triangulate", "stars", "select", "trace"];
 
+/// How many points a loop may pass between two looks at whether to stop: some milliseconds.
+pub const PACE: usize = 1 << 19;
+
 /// A stage of a call, as an index into [`STAGES`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(usize)]

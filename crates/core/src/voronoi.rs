@@ -26,15 +26,17 @@ impl Center {
         let twice = 2.0 * cross(u, v);
         let numerators = [uu * v[1] - vv * u[1], vv * u[0] - uu * v[0]];
         let sizes = uu * (v[0].abs() + v[1].abs()) + vv * (u[0].abs() + u[1].abs());
-        let flatness = 32.0 * ROUNDING * ((u[0] * v[1]).abs() + (u[1] * v[0]).abs()) / twice.abs();
+        let inverse = 1.0 / twice;
+        let flatness =
+            32.0 * ROUNDING * ((u[0] * v[1]).abs() + (u[1] * v[0]).abs()) * inverse.abs();
         if flatness.is_nan() || flatness >= 0.25 || twice.abs() <= 1e-200 {
             return Self { at: [0.0; 2], error: f64::INFINITY };
         }
-        let offset = numerators.map(|x| x / twice);
+        let offset = numerators.map(|x| x * inverse);
         let from_origin = sub(a, origin);
         let at = [from_origin[0] + offset[0], from_origin[1] + offset[1]];
         let size = |x: Point| x[0].abs() + x[1].abs();
-        let error = 16.0 * ROUNDING * sizes / twice.abs()
+        let error = 16.0 * ROUNDING * sizes * inverse.abs()
             + (2.0 * flatness + 8.0 * ROUNDING) * size(offset)
             + 8.0 * ROUNDING * size(from_origin);
         Self { at, error }

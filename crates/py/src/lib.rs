@@ -2,7 +2,6 @@
 
 mod arrays;
 mod call;
-mod certify;
 mod delaunay;
 mod errors;
 mod feature_size;
@@ -16,11 +15,9 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use crate::certify::certify;
-    #[pymodule_export]
     use crate::delaunay::Delaunay;
     #[pymodule_export]
-    use crate::feature_size::feature_size;
+    use crate::feature_size::FeatureSize;
     #[pymodule_export]
     use crate::medial_axis::medial_axis;
     #[pymodule_export]

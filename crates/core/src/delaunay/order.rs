@@ -6,7 +6,7 @@
 
 use crate::error::{Error, Result};
 use crate::point::{Point, lexicographic};
-use crate::progress::{Progress, Stage};
+use crate::progress::{PACE, Progress, Stage};
 use rayon::prelude::*;
 
 /// Points in one bucket of the first pass of the sort, about: they should fit in the first cache.
@@ -140,7 +140,7 @@ fn sort_keys(keys: &mut Vec<Key>, progress: &Progress) -> Result<()> {
         return progress.advance(keys.len());
     }
     let shift = 64 - buckets.trailing_zeros();
-    let ends = scatter(keys, buckets, shift);
+    let ends = scatter(keys, buckets, shift, progress)?;
     let mut parts = Vec::with_capacity(buckets);
     let (mut rest, mut start) = (keys.as_mut_slice(), 0);
     for end in ends {
@@ -155,23 +155,32 @@ fn sort_keys(keys: &mut Vec<Key>, progress: &Progress) -> Result<()> {
 }
 
 /// Group `keys` by their leading bits; return where each group ends.
-fn scatter(keys: &mut Vec<Key>, buckets: usize, shift: u32) -> Vec<usize> {
+fn scatter(
+    keys: &mut Vec<Key>,
+    buckets: usize,
+    shift: u32,
+    progress: &Progress,
+) -> Result<Vec<usize>> {
     let mut ends = vec![0; buckets];
-    for key in &*keys {
-        ends[(key.0 >> shift) as usize] += 1;
+    for chunk in keys.chunks(PACE) {
+        progress.advance(0)?;
+        chunk.iter().for_each(|key| ends[(key.0 >> shift) as usize] += 1);
     }
     let mut start = 0;
     for end in &mut ends {
         (*end, start) = (start, start + *end);
     }
     let mut grouped = vec![(0, 0); keys.len()];
-    for &key in &*keys {
-        let end = &mut ends[(key.0 >> shift) as usize];
-        grouped[*end] = key;
-        *end += 1;
+    for chunk in keys.chunks(PACE) {
+        progress.advance(0)?;
+        for &key in chunk {
+            let end = &mut ends[(key.0 >> shift) as usize];
+            grouped[*end] = key;
+            *end += 1;
+        }
     }
     *keys = grouped;
-    ends
+    Ok(ends)
 }
 
 /// Sort each run of equal codes by x, y, then row.

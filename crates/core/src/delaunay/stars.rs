@@ -5,7 +5,7 @@
 
 use super::rings::{self, HalfEdge, NONE};
 use crate::error::Result;
-use crate::progress::{Progress, Stage};
+use crate::progress::{PACE, Progress, Stage};
 use rayon::prelude::*;
 
 /// Vertices that one task takes at a time.
@@ -82,7 +82,7 @@ impl Stars {
         progress: &Progress,
     ) -> Result<(Self, Vec<u32>)> {
         progress.enter(Stage::Stars, vertices)?;
-        let (mut first, offsets) = first_half_edges(slots, vertices);
+        let (mut first, offsets) = first_half_edges(slots, vertices, progress)?;
         let hull = walk_hull(slots, hull, &mut first);
         let mut on_hull = vec![false; vertices];
         for &vertex in &hull {
@@ -131,10 +131,17 @@ impl Stars {
 }
 
 /// A half-edge that starts at each vertex, `NONE` at a lone vertex, and where each vertex's star is to start.
-fn first_half_edges(slots: &[HalfEdge], vertices: usize) -> (Vec<u32>, Vec<u32>) {
+fn first_half_edges(
+    slots: &[HalfEdge],
+    vertices: usize,
+    progress: &Progress,
+) -> Result<(Vec<u32>, Vec<u32>)> {
     let mut first = vec![NONE; vertices];
     let mut offsets = vec![0; vertices + 1];
     for e in 0..slots.len() as u32 {
+        if e as usize % PACE == 0 {
+            progress.advance(0)?;
+        }
         if let Some(vertex) = rings::origin(slots, e) {
             first[vertex as usize] = e;
             offsets[vertex as usize + 1] += 1;
@@ -143,7 +150,7 @@ fn first_half_edges(slots: &[HalfEdge], vertices: usize) -> (Vec<u32>, Vec<u32>)
     for vertex in 0..vertices {
         offsets[vertex + 1] += offsets[vertex];
     }
-    (first, offsets)
+    Ok((first, offsets))
 }
 
 /// The vertices of the hull, counter-clockwise; let each one's star start with the next.

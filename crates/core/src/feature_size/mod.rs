@@ -29,21 +29,25 @@ const LEAP: f64 = 32.0;
 /// Queries that one task takes at a time.
 const GRAIN: usize = 1 << 10;
 
-/// The smooth interpolant of edges and its medial axis.
+/// The smooth interpolant of edges, its medial axis, and the local feature size at the vertices.
 #[derive(Debug)]
 pub struct FeatureSize {
+    curve: Adjacency,
     bends: Vec<Option<Bend>>,
     tree: Tree,
+    /// For each vertex the nearest segment of the axis, and the distance.
+    nearest: Vec<(u32, f64)>,
 }
 
 impl FeatureSize {
-    /// Of the curves along `curve`.
+    /// Of the curves along `edges`, which are canonical. O(n log n).
     ///
     /// # Errors
     /// A cancelled `progress`.
-    pub fn new(delaunay: &Delaunay, curve: &Adjacency, progress: &Progress) -> Result<Self> {
+    pub fn new(delaunay: &Delaunay, edges: &Edges, progress: &Progress) -> Result<Self> {
+        let curve = Adjacency::new(delaunay, edges);
         let scale = Scale::of(delaunay.points());
-        let bends = bends(delaunay, &*stencil(delaunay, curve, &scale, progress)?, &scale);
+        let bends = bends(delaunay, &*stencil(delaunay, &curve, &scale, progress)?, &scale);
         progress.advance(0)?;
         let vertices = 0..delaunay.points().len() as u32;
         let disks: Vec<Disks> =
@@ -52,7 +56,15 @@ impl FeatureSize {
         let axis: Vec<Segment> =
             vertices.into_par_iter().flat_map_iter(|v| segments(&bends, &disks, v)).collect();
         progress.advance(0)?;
-        Ok(Self { bends, tree: Tree::new(&axis, scale.bounds) })
+        let tree = Tree::new(&axis, scale.bounds);
+        let nearest = nearest(&tree, delaunay.points(), progress)?;
+        Ok(Self { curve, bends, tree, nearest })
+    }
+
+    /// The neighbors of each vertex along the curves.
+    #[must_use]
+    pub fn curve(&self) -> &Adjacency {
+        &self.curve
     }
 
     /// The interpolant at each vertex; `None` at isolated points and branches.
@@ -61,44 +73,40 @@ impl FeatureSize {
         &self.bends
     }
 
-    /// The distance to the axis from each of `places`, which should be in an order that jumps little; infinite without an axis.
-    ///
-    /// # Errors
-    /// A cancelled `progress`.
-    pub fn distances(&self, places: &[Point], progress: &Progress) -> Result<Vec<f64>> {
-        let part = |places: &[Point]| {
-            let mut query = Query::default();
-            let sizes: Vec<f64> =
-                places.iter().map(|&place| self.tree.distance(place, &mut query)).collect();
-            progress.advance(0)?;
-            Ok(sizes)
-        };
-        Ok(places.par_chunks(GRAIN).map(part).collect::<Result<Vec<_>>>()?.concat())
+    /// The local feature size at each input row: not a number at isolated points, 0 at branches, infinite without an axis.
+    #[must_use]
+    pub fn at_rows(&self, delaunay: &Delaunay) -> Vec<f64> {
+        let mut sizes = vec![f64::NAN; delaunay.input_len()];
+        for (v, &(_, distance)) in self.nearest.iter().enumerate() {
+            sizes[delaunay.rows()[v] as usize] = match self.curve.of(v as u32).len() {
+                0 => f64::NAN,
+                1 | 2 => distance / delaunay.scale(),
+                _ => 0.0,
+            };
+        }
+        for &[row, first] in delaunay.duplicates() {
+            sizes[row as usize] = sizes[first as usize];
+        }
+        sizes
+    }
+
+    /// The local feature size at `place`, between `p` and `q`: the distance to the parts of the axis nearest to them.
+    #[must_use]
+    pub fn between(&self, p: u32, q: u32, place: Point) -> f64 {
+        let to = |v: u32| self.tree.distance_to(self.nearest[v as usize].0, place);
+        to(p).min(to(q))
     }
 }
 
-/// The local feature size at each input row: not a number at isolated points, 0 at branches.
-///
-/// O(n log n).
-///
-/// # Errors
-/// A cancelled `progress`.
-pub fn feature_size(delaunay: &Delaunay, edges: &Edges, progress: &Progress) -> Result<Vec<f64>> {
-    let curve = Adjacency::new(delaunay, edges);
-    let axis = FeatureSize::new(delaunay, &curve, progress)?;
-    let distances = axis.distances(delaunay.points(), progress)?;
-    let mut sizes = vec![f64::NAN; delaunay.input_len()];
-    for (v, &distance) in distances.iter().enumerate() {
-        sizes[delaunay.rows()[v] as usize] = match curve.of(v as u32).len() {
-            0 => f64::NAN,
-            1 | 2 => distance / delaunay.scale(),
-            _ => 0.0,
-        };
-    }
-    for &[row, first] in delaunay.duplicates() {
-        sizes[row as usize] = sizes[first as usize];
-    }
-    Ok(sizes)
+/// For each place the nearest segment and the distance, infinite if there is none.
+fn nearest(tree: &Tree, places: &[Point], progress: &Progress) -> Result<Vec<(u32, f64)>> {
+    let part = |places: &[Point]| {
+        let mut query = Query::default();
+        let found: Vec<_> = places.iter().map(|&place| tree.nearest(place, &mut query)).collect();
+        progress.advance(0)?;
+        Ok(found)
+    };
+    Ok(places.par_chunks(GRAIN).map(part).collect::<Result<Vec<_>>>()?.concat())
 }
 
 /// The segments of the axis that vertex `v` answers for: to its tip, and to the centers of later adjacent vertices.

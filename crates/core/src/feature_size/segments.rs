@@ -95,9 +95,16 @@ impl Tree {
         Self { segments, levels }
     }
 
-    /// The distance from `p` to the nearest segment, infinite if there is none.
-    pub fn distance(&self, p: Point, query: &mut Query) -> f64 {
-        let Some(guess) = self.segments.get(query.last) else { return f64::INFINITY };
+    /// The distance from `p` to a segment, infinite if there is none.
+    pub fn distance_to(&self, segment: u32, p: Point) -> f64 {
+        self.segments
+            .get(segment as usize)
+            .map_or(f64::INFINITY, |segment| segment.square(p).sqrt())
+    }
+
+    /// The segment nearest to `p` and its distance, infinite if there is none.
+    pub fn nearest(&self, p: Point, query: &mut Query) -> (u32, f64) {
+        let Some(guess) = self.segments.get(query.last) else { return (0, f64::INFINITY) };
         let mut best = guess.square(p);
         query.stack.clear();
         query.stack.push((0.0, self.levels.len() - 1, 0));
@@ -116,7 +123,7 @@ impl Tree {
                 self.open(p, level, node, best, &mut query.stack);
             }
         }
-        best.sqrt()
+        (query.last as u32, best.sqrt())
     }
 
     /// Push the children of a box that are near enough, the nearest last.
