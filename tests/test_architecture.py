@@ -1,4 +1,4 @@
-"""ARCHITECTURE.md against the imports: every module imports from its own line and the lines above only."""
+"""ARCHITECTURE.md against the imports: a module imports from its own line and the lines above."""
 
 from __future__ import annotations
 

@@ -54,16 +54,22 @@ impl AnglePair {
     }
 }
 
-/// An angle as the dot and cross product of its sides, and a bound on their size.
-struct Angle {
-    dot: f64,
-    cross: f64,
-    size: f64,
+/// An angle as the dot and cross product of its sides; the cotangent is their quotient.
+#[derive(Debug, Clone, Copy)]
+pub struct Angle {
+    /// The dot product.
+    pub dot: f64,
+    /// The cross product.
+    pub cross: f64,
+    /// A bound on the size of both, which their rounding errors are relative to.
+    pub size: f64,
 }
 
 impl Angle {
+    /// The angle at `apex` from `p` to `q`.
     #[inline]
-    fn at(apex: Point, p: Point, q: Point) -> Self {
+    #[must_use]
+    pub fn at(apex: Point, p: Point, q: Point) -> Self {
         let ([a, b], [c, d]) = (sub(p, apex), sub(q, apex));
         let size = (a.abs() + b.abs()) * (c.abs() + d.abs());
         Self { dot: a * c + b * d, cross: a * d - b * c, size }

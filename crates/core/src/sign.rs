@@ -53,6 +53,18 @@ pub trait Form<const N: usize> {
     fn value<T: Number>(&self, at: &[[T; 2]; N]) -> T;
 }
 
+/// The dot product of two vectors.
+pub struct Dot;
+
+impl Form<2> for Dot {
+    fn bound(&self, bits: u32) -> u32 {
+        2 * bits + 1
+    }
+    fn value<T: Number>(&self, [a, b]: &[[T; 2]; 2]) -> T {
+        dot(a, b)
+    }
+}
+
 /// The sign of `form` at `points`, relative to `origin`. Always right.
 pub fn sign<const N: usize, F: Form<N>>(form: &F, origin: Point, points: &[Point; N]) -> Ordering {
     let approximate = form.value(&points.map(|point| sub(point, origin).map(Approximate::rounded)));
@@ -162,65 +174,26 @@ impl Number for Approximate {
     }
 }
 
-impl Number for i64 {
-    fn integer(value: i64) -> Self {
-        value
-    }
-    fn plus(&self, other: &Self) -> Self {
-        self + other
-    }
-    fn minus(&self, other: &Self) -> Self {
-        self - other
-    }
-    fn times(&self, other: &Self) -> Self {
-        self * other
-    }
+macro_rules! exact_number {
+    ($($integer:ty),*) => {$(
+        impl Number for $integer {
+            fn integer(value: i64) -> Self {
+                value.into()
+            }
+            fn plus(&self, other: &Self) -> Self {
+                self + other
+            }
+            fn minus(&self, other: &Self) -> Self {
+                self - other
+            }
+            fn times(&self, other: &Self) -> Self {
+                self * other
+            }
+        }
+    )*};
 }
 
-impl Number for i128 {
-    fn integer(value: i64) -> Self {
-        value.into()
-    }
-    fn plus(&self, other: &Self) -> Self {
-        self + other
-    }
-    fn minus(&self, other: &Self) -> Self {
-        self - other
-    }
-    fn times(&self, other: &Self) -> Self {
-        self * other
-    }
-}
-
-impl Number for I256 {
-    fn integer(value: i64) -> Self {
-        value.into()
-    }
-    fn plus(&self, other: &Self) -> Self {
-        self + other
-    }
-    fn minus(&self, other: &Self) -> Self {
-        self - other
-    }
-    fn times(&self, other: &Self) -> Self {
-        self * other
-    }
-}
-
-impl Number for BigInt {
-    fn integer(value: i64) -> Self {
-        value.into()
-    }
-    fn plus(&self, other: &Self) -> Self {
-        self + other
-    }
-    fn minus(&self, other: &Self) -> Self {
-        self - other
-    }
-    fn times(&self, other: &Self) -> Self {
-        self * other
-    }
-}
+exact_number!(i64, i128, I256, BigInt);
 
 /// The finite double `x` as an odd integer (or 0) and the power of two that it is multiplied by.
 #[must_use]
@@ -246,6 +219,7 @@ fn common_unit<const N: usize>(origin: Point, points: &[Point; N]) -> Option<i32
 /// The differences as integers in some common unit, and the bits of the largest.
 ///
 /// `None` if a difference is not a double, or the largest has more than 62 bits.
+#[must_use]
 pub fn small_differences<const N: usize>(
     origin: Point,
     points: &[Point; N],

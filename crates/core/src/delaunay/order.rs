@@ -164,7 +164,9 @@ fn scatter(
     let mut ends = vec![0; buckets];
     for chunk in keys.chunks(PACE) {
         progress.advance(0)?;
-        chunk.iter().for_each(|key| ends[(key.0 >> shift) as usize] += 1);
+        for key in chunk {
+            ends[(key.0 >> shift) as usize] += 1;
+        }
     }
     let mut start = 0;
     for end in &mut ends {

@@ -139,7 +139,7 @@ fn first_half_edges(
     let mut first = vec![NONE; vertices];
     let mut offsets = vec![0; vertices + 1];
     for e in 0..slots.len() as u32 {
-        if e as usize % PACE == 0 {
+        if (e as usize).is_multiple_of(PACE) {
             progress.advance(0)?;
         }
         if let Some(vertex) = rings::origin(slots, e) {

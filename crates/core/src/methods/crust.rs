@@ -6,6 +6,7 @@
 //! that the smallest candidate meets.
 
 use super::one_step_crust;
+use crate::angle_pair::Angle;
 use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, select};
 use crate::error::Result;
@@ -46,9 +47,9 @@ fn has_empty_disk(delaunay: &Delaunay, edge: Edge, visit: &mut Visit) -> bool {
 /// Is the angle opposite to the edge about 45° or more? Then the center of that triangle is inside the smallest disk.
 #[inline]
 fn is_above_45(delaunay: &Delaunay, edge: Edge, apex: u32) -> bool {
-    let apex = delaunay.point(apex);
-    let [u, v] = [edge.p, edge.q].map(|end| sub(delaunay.point(end), apex));
-    dot(u, v) < cross(u, v).abs()
+    let [p, q, apex] = [edge.p, edge.q, apex].map(|vertex| delaunay.point(vertex));
+    let angle = Angle::at(apex, p, q);
+    angle.dot < angle.cross.abs()
 }
 
 /// The search in full, from the Voronoi vertex `found` in the smallest disk, if that was tried.

@@ -97,7 +97,7 @@ impl<'a> Neighborhood<'a> {
     /// Is the angle q p s at least 90°?
     fn is_behind(&self, p: u32, q: u32, s: u32) -> bool {
         let [p, q, s] = [p, q, s].map(|vertex| self.delaunay.point(vertex));
-        sign::sign(&Dot, p, &[q, s]) != Greater
+        sign::sign(&sign::Dot, p, &[q, s]) != Greater
     }
 }
 
@@ -120,17 +120,5 @@ impl Form<2> for Nearer {
     }
     fn value<T: Number>(&self, [a, b]: &[[T; 2]; 2]) -> T {
         sign::dot(a, a).minus(&sign::dot(b, b))
-    }
-}
-
-/// The dot product of two vectors.
-struct Dot;
-
-impl Form<2> for Dot {
-    fn bound(&self, bits: u32) -> u32 {
-        2 * bits + 1
-    }
-    fn value<T: Number>(&self, [a, b]: &[[T; 2]; 2]) -> T {
-        sign::dot(a, b)
     }
 }

@@ -2,10 +2,11 @@
 //!
 //! C. Gold and J. Snoeyink, "A One-Step Crust and Skeleton Extraction Algorithm", Algorithmica 30 (2001).
 
+use crate::angle_pair::Angle;
 use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, select};
 use crate::error::Result;
-use crate::point::{Point, sub};
+use crate::point::Point;
 use crate::progress::Progress;
 use crate::sign::{self, Form, Number};
 use std::cmp::Ordering::{Greater, Less};
@@ -30,7 +31,7 @@ pub(super) fn is_in(delaunay: &Delaunay, edge: Edge) -> bool {
         }
         (Some(apex), None) | (None, Some(apex)) => {
             // On the hull the other disks reach to infinity, but all hold the midpoint: 90° is too much.
-            sign::sign(&Dot, delaunay.point(apex), &[p, q]) == Greater
+            sign::sign(&sign::Dot, delaunay.point(apex), &[p, q]) == Greater
         }
         (None, None) => true,
     }
@@ -48,34 +49,6 @@ fn sum_is_at_most_90(p: Point, q: Point, left: Point, right: Point) -> bool {
         return difference > 0.0;
     }
     sign::exact_sign(&CotangentProduct, p, &[q, left, right]) != Less
-}
-
-/// An angle as the dot and cross product of its sides, and a bound on their size.
-struct Angle {
-    dot: f64,
-    cross: f64,
-    size: f64,
-}
-
-impl Angle {
-    #[inline]
-    fn at(apex: Point, p: Point, q: Point) -> Self {
-        let ([a, b], [c, d]) = (sub(p, apex), sub(q, apex));
-        let size = (a.abs() + b.abs()) * (c.abs() + d.abs());
-        Self { dot: a * c + b * d, cross: a * d - b * c, size }
-    }
-}
-
-/// The dot product of two vectors.
-struct Dot;
-
-impl Form<2> for Dot {
-    fn bound(&self, bits: u32) -> u32 {
-        2 * bits + 1
-    }
-    fn value<T: Number>(&self, [a, b]: &[[T; 2]; 2]) -> T {
-        sign::dot(a, b)
-    }
 }
 
 /// cot · cot − 1 of the angles at two points opposite to the edge from the origin to `q`, times two cross products.
