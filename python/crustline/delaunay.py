@@ -84,7 +84,7 @@ class Delaunay:
     >>> triangulation.edges.tolist()
     [[0, 1], [0, 2], [0, 3], [1, 3], [2, 3]]
     >>> triangulation.hull.tolist()
-    [2, 0, 1, 3]
+    [0, 1, 3, 2]
     """
 
     def __init__(

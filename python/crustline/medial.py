@@ -372,7 +372,14 @@ def feature_size_of_samples(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLi
     curvature, where the axis ends. The distance is searched over the whole axis, and not the axis
     next to the sample only.
 
-    ACCURACY
+    An estimate, measured on ellipses up to 6:1, Fourier blobs and stadiums, sparsest and random
+    samples. At r = 0.2 the median error of the worst curve is 0.1 % (ellipses), 0.8 % (blobs), 8 %
+    (stadiums); 95 % of the errors are within 0.9, 6.4 and 13 %; the extremes are +36 % (a blob,
+    where the curvature peaks between samples) and -17 % (a stadium). At r = 0.1 the extremes are +6
+    % and -13 %, at r = 0.4 +70 % and -14 %. Where the curvature is continuous the error falls at
+    least with the square of r; where it jumps, as on a stadium, up to 13 % too little remain at any
+    r.
+
 
     O(n log n) time.
 

@@ -94,7 +94,7 @@ impl Mesh<'_> {
 ///
 /// Open curves do not separate. Neither do rings with an edge that is not in the triangulation.
 fn flipping(delaunay: &Delaunay, curve: &Adjacency, progress: &Progress) -> Result<Vec<bool>> {
-    let mut vertices = (0..delaunay.points().len() as u32).into_par_iter();
+    let vertices = (0..delaunay.points().len() as u32).into_par_iter();
     let simple = |v: u32| match curve.of(v) {
         [] => true,
         [(a, _), (b, _)] => [a, b].iter().all(|end| delaunay.star(v).neighbors.contains(end)),

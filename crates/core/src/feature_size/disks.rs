@@ -11,6 +11,8 @@ use crate::point::{Point, dot, sub};
 /// How far from a sample, as a part of the way to the next, its own circle of curvature is trusted.
 const TRUST: f64 = 0.75;
 
+/// A disk through a sample shrinks no more than this when it gives way to the curve beside the sample.
+const DENT: f64 = 1.25;
 /// Rounds of making a disk smaller.
 const SHRINKS: usize = 8;
 /// A disk is empty if its curvature is too small by no more than this part.
@@ -76,7 +78,7 @@ fn shrunk(
         let through = 2.0 * dot(normal, d) / dot(d, d);
         if start == v
             || near.passes_over(bends[start as usize].as_ref(), d)
-            || !(through > curvature * (1.0 + EMPTY))
+            || through <= curvature * (1.0 + EMPTY)
         {
             break;
         }
@@ -117,7 +119,7 @@ fn disk(point: Point, normal: Point, signed: f64, curvature: f64) -> Option<Disk
 /// The osculating disk where the curvature is largest: there the axis ends.
 fn tip(point: Point, bend: &Bend, sign: f64, far: f64) -> Option<Disk> {
     let s = bend.vertex().filter(|_| sign * bend.second < 0.0)?;
-    let curvature = sign * bend.curvature_at(s);
+    let curvature = (sign * bend.curvature_at(s)).min(bend.most);
     if curvature <= far {
         return None;
     }
@@ -169,7 +171,11 @@ impl<'a> Near<'a> {
         let touching = |t: f64| sign * (curvature + t * (slope / 3.0 + t * second / 6.0));
         let inner = if second == 0.0 { 0.0 } else { -slope / second };
         let inner = inner.clamp(self.ends[0], self.ends[1]);
-        [0.0, inner, self.ends[0], self.ends[1]].map(touching).into_iter().fold(0.0, f64::max)
+        [0.0, inner, self.ends[0], self.ends[1]]
+            .map(touching)
+            .into_iter()
+            .fold(0.0, f64::max)
+            .min(self.bend.most)
     }
 }
 
@@ -213,7 +219,7 @@ fn touching_both(normal: Point, d: Point, through: f64, other: &Bend) -> Option<
     let numerator = 1.0 - dot(normal, facing) - bend * dot(normal, d);
     let denominator = -dot(d, facing) - bend * dot(d, d) / 2.0;
     let curvature = numerator / denominator;
-    if !(denominator > 0.0 && curvature > 0.0 && curvature.is_finite()) {
+    if !(denominator > 0.0 && curvature <= DENT * through) {
         return None;
     }
     let from = sub(normal.map(|x| x / curvature), d);

@@ -12,6 +12,8 @@ use rayon::prelude::*;
 
 /// How much larger than a neighbor's second derivative of the curvature that of a sample may be.
 const LIMIT: f64 = 3.0;
+/// How much larger than its means the curvature may be.
+const OVERSHOOT: f64 = 1.15;
 
 /// The curve near a sample, run through from `before` to `after`.
 #[derive(Debug, Clone, Copy)]
@@ -28,6 +30,8 @@ pub struct Bend {
     pub slope: f64,
     /// Half of its second derivative.
     pub second: f64,
+    /// The curvature is not believed to be larger than this anywhere near.
+    pub most: f64,
 }
 
 impl Bend {
@@ -134,7 +138,7 @@ fn through(a: Point, b: Point, adjacent: [Option<u32>; 2]) -> Bend {
     let curvature = 2.0 * cross(b, a) / (aa * bb * dot(chord, chord)).sqrt();
     let curvature = if curvature.is_finite() { curvature } else { 0.0 };
     let reach = [arc(a, curvature), arc(b, curvature)];
-    Bend { adjacent, reach, tangent, curvature, slope: 0.0, second: 0.0 }
+    Bend { adjacent, reach, tangent, curvature, slope: 0.0, second: 0.0, most: curvature.abs() }
 }
 
 /// The length of an arc of small curvature over the chord `d`.
@@ -203,9 +207,10 @@ fn bend(circles: &[Option<Bend>], seconds: &[f64], scale: &Scale, v: u32) -> Opt
     let h = bend.reach[1];
     let angle = -h * (correction / 2.0 + h * (slope / 6.0 + h * second / 12.0));
     if [slope, correction, angle].iter().all(|x| x.is_finite()) {
+        bend.most = OVERSHOOT * k.iter().fold(0.0, |most: f64, k| most.max(k.abs()));
         bend.second = second;
         bend.slope = slope;
-        bend.curvature += correction;
+        bend.curvature = (bend.curvature + correction).clamp(-bend.most, bend.most);
         bend.tangent = turned(bend.tangent, angle);
     }
     Some(bend)
