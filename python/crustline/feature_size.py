@@ -340,12 +340,13 @@ def _empty_disks(nodes: _Nodes, grid: _Nodes) -> FloatArray:
     # magnitude.
     scales = 0.5 ** np.arange(6, 26) / len(nodes.curve.loops)
     offsets = np.concatenate([-scales, scales])
+    extent = grid.extent()
     rows = max(1, BLOCK // len(grid.t))
     for start in range(0, len(nodes.t), rows):
         block = slice(start, start + rows)
         own = np.arange(len(nodes.t))[block]
         around = nodes.curve.point(nodes.near(own, np.tile(offsets, (len(own), 1))))
-        g, close = (_touching(nodes, x, block) for x in (grid.point[None], around))
+        g, close = (_touching(nodes, x, block, extent) for x in (grid.point[None], around))
         for side, sign in enumerate((1.0, -1.0)):
             best = _best_contacts(nodes, grid, sign * g, sign, block)
             best = np.maximum(best, (sign * close).max(axis=1))
@@ -353,12 +354,14 @@ def _empty_disks(nodes: _Nodes, grid: _Nodes) -> FloatArray:
     return out
 
 
-def _touching(nodes: _Nodes, x: FloatArray, rows: slice) -> FloatArray:
-    """Return the signed curvature of the circles that touch at nodes and pass x (r, k, 2)."""
+def _touching(nodes: _Nodes, x: FloatArray, rows: slice, extent: float) -> FloatArray:
+    """Return the signed curvature of the circles that touch at nodes and pass x (r, k, 2).
+
+    `extent` is the size of the whole curve: a single node has none.
+    """
     d = x - nodes.point[rows, None]
     square = d[..., 0] ** 2 + d[..., 1] ** 2
     normal, curvature = nodes.normal[rows, None], nodes.curvature[rows, None]
-    extent = nodes.extent()
     # Nearer to the node than this, rounding spoils the fraction; its limit is the curvature.
     near = square < 4e-9 * extent / np.maximum(np.abs(curvature), 1 / extent)
     height = normal[..., 0] * d[..., 0] + normal[..., 1] * d[..., 1]

@@ -31,7 +31,7 @@ impl Bits {
     }
 
     fn points(&mut self, low: u64, high: u64) -> Vec<Point> {
-        let values: Vec<f64> = (0..1 + self.next() % 12).map(|_| self.double(low, high)).collect();
+        let values: Vec<f64> = (0..=self.next() % 12).map(|_| self.double(low, high)).collect();
         let count = self.next() % 40;
         let mut pick = || values[self.next() as usize % values.len()];
         (0..count).map(|_| [pick(), pick()]).collect()
