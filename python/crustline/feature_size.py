@@ -400,9 +400,11 @@ def _polished(
     every = np.arange(len(j))
     for _ in range(POLISH_ROUNDS):
         x = best_at[:, None] + np.stack([low, 0 * low, high], -1)
-        f = sign * _touching(nodes, grid.curve.point(grid.near(j, x)), rows)
+        f = sign * _touching(nodes, grid.curve.point(grid.near(j, x)), rows, grid.extent())
         top = best_at + np.clip(_parabola_top(low, high, f), low, high)
-        g = sign * _touching(nodes, grid.curve.point(grid.near(j, top[:, None])), rows)
+        g = sign * _touching(
+            nodes, grid.curve.point(grid.near(j, top[:, None])), rows, grid.extent()
+        )
         x, f = np.column_stack([x, top]), np.column_stack([f, g])
         highest = np.argmax(f, axis=1)
         best_at, best = x[every, highest], np.maximum(best, f[every, highest])

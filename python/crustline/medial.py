@@ -311,7 +311,8 @@ def medial_axis(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = 
     coordinates: by a flood over the triangles that starts outside and flips where it crosses a
     ring. Rings are the closed curves of `crustline.trace`; polylines do not separate, not even
     where several of them enclose a region between branches, nor does a ring with an edge that is
-    not in the triangulation. Vertices are good to 1e-7 of their distance from the nearest points. Where all points lie on one line, an edge that is not selected is separated
+    not in the triangulation. Vertices are good to 1e-7 of their distance from the nearest points.
+    Where all points lie on one line, an edge that is not selected is separated
     by two opposite rays from its midpoint.
 
     For an r-sample the axis tends to that of the curve; its inner ends stop short of the tips by
