@@ -32,7 +32,9 @@ fn main() {
     let points = points(1 << 12);
     let at = |k: usize| points[k % points.len()];
     let separate = |tests: usize| {
-        best(|| (0..tests).filter(|&k| in_circle(at(k), at(k + 7), at(k + 77), at(k + 777))).count())
+        best(|| {
+            (0..tests).filter(|&k| in_circle(at(k), at(k + 7), at(k + 77), at(k + 777))).count()
+        })
     };
     let shared = |tests: usize| {
         best(|| {
