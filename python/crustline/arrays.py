@@ -187,9 +187,8 @@ def as_edges(edges: npt.ArrayLike, n: int) -> IntArray:
 
 
 def _check_ends(edges: npt.NDArray[Any], n: int) -> None:
-    outside = ((edges < 0) | (edges >= n)).any(axis=1)
-    if outside.any():
-        row = int(np.argmax(outside))
+    if edges.min() < 0 or edges.max() >= n:
+        row = int(np.argmax(((edges < 0) | (edges >= n)).any(axis=1)))
         raise InputError(
             f"edges: row {row} is {edges[row].tolist()}, but there are {n} points, 0 to {n - 1}: "
             "pass edges of these points"
@@ -202,7 +201,8 @@ def _check_ends(edges: npt.NDArray[Any], n: int) -> None:
 
 def _canonical(edges: IntArray, n: int) -> IntArray:
     """Sort edges by one int64 key each; what a method returned is in order already."""
-    keys = edges.min(axis=1) * n + edges.max(axis=1)
-    if (keys[1:] > keys[:-1]).all() and (edges[:, 0] < edges[:, 1]).all():
+    i, j = edges[:, 0], edges[:, 1]
+    keys = np.minimum(i, j) * n + np.maximum(i, j)
+    if (keys[1:] > keys[:-1]).all() and (i < j).all():
         return edges
     return np.stack(np.divmod(np.unique(keys), n), axis=1)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -66,6 +67,8 @@ class Certificate:
     point_reason : ndarray of str, shape (n,)
         The same for points: "isolated", "branch", "endpoint", "corner", "missing" (a method has
         an edge here that is not among the edges), "undersampled".
+    edge_codes, point_codes : ndarray of int8
+        The reasons as numbers: rows of `REASONS`, 0 if there is none.
     """
 
     points: FloatArray
@@ -76,18 +79,29 @@ class Certificate:
     guaranteed: bool
     theorem: str
     promise: str
-    edge_reason: Reasons
-    point_reason: Reasons
+    edge_codes: Codes = field(repr=False)
+    point_codes: Codes = field(repr=False)
+
+    # Strings take six times the room of all else, so they are not made before someone asks.
+    @cached_property
+    def edge_reason(self) -> Reasons:
+        """Why each edge breaks the guarantee."""
+        return REASONS[self.edge_codes]
+
+    @cached_property
+    def point_reason(self) -> Reasons:
+        """Why each point breaks the guarantee."""
+        return REASONS[self.point_codes]
 
     @property
     def weak(self) -> IntArray:
         """Rows of `edges` that break the guarantee, sorted: more samples are needed there."""
-        return np.flatnonzero(self.edge_reason != "")
+        return np.flatnonzero(self.edge_codes)
 
     @property
     def weak_points(self) -> IntArray:
         """Rows of `points` that break the guarantee, sorted."""
-        return np.flatnonzero(self.point_reason != "")
+        return np.flatnonzero(self.point_codes)
 
     def summary(self) -> str:
         """Return the certificate in words: what is proven, what is estimated, what breaks it."""
@@ -125,10 +139,11 @@ class Certificate:
 
     def _breaks(self) -> list[str]:
         lines = []
-        for noun, reasons in (("edge", self.edge_reason), ("point", self.point_reason)):
-            words, counts = np.unique(reasons[reasons != ""], return_counts=True)
-            if len(words):
-                parts = (f"{n} {word}" for word, n in zip(words, counts, strict=True))
+        for noun, codes in (("edge", self.edge_codes), ("point", self.point_codes)):
+            counts = np.bincount(codes, minlength=len(REASONS))
+            words = sorted((str(REASONS[k]), int(counts[k])) for k in np.flatnonzero(counts) if k)
+            if words:
+                parts = (f"{n} {word}" for word, n in words)
                 lines.append(f"Broken at {noun}s: {', '.join(parts)}.")
         return lines
 
@@ -252,8 +267,8 @@ def certify(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = None
         guaranteed=bool(theorem and len(chosen) and sound),
         theorem=theorem,
         promise=_promise(threshold) if theorem else "",
-        edge_reason=REASONS[of_edges],
-        point_reason=REASONS[of_points],
+        edge_codes=of_edges,
+        point_codes=of_points,
     )
 
 
@@ -299,4 +314,5 @@ def _without(edges: IntArray, others: IntArray, n: int) -> IntArray:
 def _is_without(edges: IntArray, others: IntArray, n: int) -> BoolArray:
     if edges is others:
         return np.zeros(len(edges), bool)
-    return ~np.isin(edges @ [n, 1], others @ [n, 1])
+    keys, known = (rows[:, 0] * n + rows[:, 1] for rows in (edges, others))
+    return np.isin(keys, known, assume_unique=True, invert=True)

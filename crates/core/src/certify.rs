@@ -27,19 +27,36 @@ pub struct Measures {
 pub fn measure(delaunay: &Delaunay, edges: &Edges, axis: &FeatureSize) -> Measures {
     let curve = axis.curve();
     let vertex = vertices_of_rows(delaunay);
-    let ratio = |&[i, j]: &[u32; 2]| {
-        let [p, q] = [vertex[i as usize], vertex[j as usize]];
-        if p == q || curve.of(p).len() > 2 || curve.of(q).len() > 2 {
-            return f64::INFINITY;
-        }
-        let (place, distance) = curve_vertex(delaunay, axis.bends(), p, q);
-        distance / axis.between(p, q, place)
+    // In the order of vertices, which are near each other in memory where they are in the plane; rows need not be.
+    let rows = delaunay.rows();
+    let in_order = |&[p, q]: &[u32; 2]| {
+        let is_turned = rows[p as usize] > rows[q as usize];
+        ratio(delaunay, axis, if is_turned { [q, p] } else { [p, q] })
     };
-    Measures {
-        ratios: edges.par_iter().map(ratio).collect(),
-        turns: vertex.par_iter().map(|&v| turn(delaunay, curve, v)).collect(),
-        degrees: vertex.par_iter().map(|&v| curve.of(v).len() as u32).collect(),
+    let ratios: Vec<f64> = curve.edges().par_iter().map(in_order).collect();
+    let vertices = (0..delaunay.points().len() as u32).into_par_iter();
+    let turns: Vec<(f64, u32)> =
+        vertices.map(|v| (turn(delaunay, curve, v), curve.of(v).len() as u32)).collect();
+    let is_distinct = delaunay.duplicates().is_empty();
+    let of_rows = |edge: &[u32; 2]| {
+        let ends = edge.map(|row| vertex[row as usize]);
+        if is_distinct || ends.map(|v| rows[v as usize]) == *edge {
+            curve.edge(ends[0], ends[1]).map_or(f64::INFINITY, |number| ratios[number as usize])
+        } else {
+            ratio(delaunay, axis, ends)
+        }
+    };
+    let (turns, degrees) = vertex.par_iter().map(|&v| turns[v as usize]).unzip();
+    Measures { ratios: edges.par_iter().map(of_rows).collect(), turns, degrees }
+}
+
+/// The ratio of the edge from p to q.
+fn ratio(delaunay: &Delaunay, axis: &FeatureSize, [p, q]: [u32; 2]) -> f64 {
+    if p == q || [p, q].iter().any(|&v| axis.curve().of(v).len() > 2) {
+        return f64::INFINITY;
     }
+    let (place, distance) = curve_vertex(delaunay, axis.bends(), p, q);
+    distance / axis.between(p, q, place)
 }
 
 /// The curve Voronoi vertex of edge p q and its distance from p.

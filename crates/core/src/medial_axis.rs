@@ -1,10 +1,10 @@
 //! The medial axis of samples and edges: the paper's anti-crust (§11, Figure 15).
 //!
 //! The Voronoi edges whose dual Delaunay edge is not selected. Its part inside the rings is told from the part outside by
-//! a flood over the triangles, which flips where it crosses a ring.
+//! a flood over the vertices, which flips where it crosses a ring.
 
-use crate::adjacency::Adjacency;
-use crate::delaunay::Delaunay;
+use crate::adjacency::{Adjacency, vertices_of_rows};
+use crate::delaunay::{Delaunay, Edge, NONE};
 use crate::edges::Edges;
 use crate::error::Result;
 use crate::point::{Point, sub};
@@ -13,6 +13,7 @@ use crate::progress::Progress;
 use crate::trace::trace;
 use crate::voronoi::{Center, circumcenter};
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// The medial axis of samples.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -49,44 +50,61 @@ pub fn medial_axis(delaunay: &Delaunay, edges: &Edges, progress: &Progress) -> R
     if triangles.is_empty() {
         return Ok(of_line(delaunay, &curve));
     }
-    let twins = delaunay.twins();
+    let wedges = delaunay.wedge_triangles();
     progress.advance(0)?;
-    let mesh = Mesh { delaunay, triangles: &triangles, twins: &twins };
-    let inside = inside(&mesh, &flipping(delaunay, &curve, progress)?, &curve);
+    let flips = flipping(delaunay, &curve, progress)?;
+    let mesh =
+        Mesh { delaunay, triangles: &triangles, wedges: &wedges, curve: &curve, flips: &flips };
     let centers = one_for_each_circle(&mesh);
     progress.advance(0)?;
-    Ok(collect(&mesh, &curve, &inside, &centers))
+    let inside = inside(&mesh);
+    progress.advance(0)?;
+    Ok(collect(&mesh, &inside, &centers))
 }
 
-/// The triangulation as half-edges.
+/// The triangulation as stars, with curves in it.
 struct Mesh<'a> {
     delaunay: &'a Delaunay,
     triangles: &'a [[u32; 3]],
-    twins: &'a [Option<u32>],
+    /// The triangle to the left of each half-edge.
+    wedges: &'a [u32],
+    curve: &'a Adjacency,
+    /// For each edge of the curves: does it separate inside and outside?
+    flips: &'a [bool],
 }
 
 impl Mesh<'_> {
-    /// The ends of half-edge `e`.
-    fn ends(&self, e: usize) -> (u32, u32) {
-        let triangle = self.triangles[e / 3];
-        (triangle[e % 3], triangle[(e + 1) % 3])
+    /// The triangles to the left of the half-edges from `p`.
+    fn triangles_at(&self, p: u32) -> &[u32] {
+        let (start, count) =
+            (self.delaunay.stars().offset(p), self.delaunay.star(p).neighbors.len());
+        &self.wedges[start..start + count]
     }
 
-    /// The corner opposite to half-edge `e`.
-    fn apex(&self, e: usize) -> u32 {
-        self.triangles[e / 3][(e + 2) % 3]
-    }
-
-    /// Are the triangles on both sides of half-edge `e` on one circle?
-    fn is_tie(&self, e: usize, twin: usize) -> bool {
-        let (p, q) = self.ends(e);
-        let [p, q, a, b] = [p, q, self.apex(e), self.apex(twin)].map(|v| self.delaunay.point(v));
+    /// Are the triangles on both sides of `edge` on one circle?
+    fn is_tie(&self, edge: &Edge) -> bool {
+        let (Some(left), Some(right)) = (edge.left, edge.right) else { return false };
+        let [p, q, a, b] = [edge.p, edge.q, left, right].map(|v| self.delaunay.point(v));
         // The far apex is never inside; with the orientation turned around, this says that it is not outside.
         !in_circle(q, p, a, b)
     }
 
-    fn half_edges(&self) -> impl ParallelIterator<Item = (usize, Option<u32>)> {
-        self.twins.par_iter().copied().enumerate()
+    /// The triangles to the left and to the right of half-edge `k` of the star of `p`.
+    fn sides(&self, p: u32, k: usize) -> Option<[u32; 2]> {
+        let triangles = self.triangles_at(p);
+        let right = if k > 0 { k - 1 } else { triangles.len() - 1 };
+        let sides = [triangles[k], triangles[right]];
+        (!sides.contains(&NONE)).then_some(sides)
+    }
+
+    /// Does the edge p q separate inside and outside?
+    #[inline]
+    fn is_flip(&self, p: u32, q: u32) -> bool {
+        self.curve.edge(p, q).is_some_and(|number| self.flips[number as usize])
+    }
+
+    fn vertices(&self) -> impl IndexedParallelIterator<Item = u32> {
+        (0..self.delaunay.points().len() as u32).into_par_iter()
     }
 }
 
@@ -116,25 +134,27 @@ fn flipping(delaunay: &Delaunay, curve: &Adjacency, progress: &Progress) -> Resu
     Ok(flips)
 }
 
-/// For each triangle: is it inside an odd number of rings?
-fn inside(mesh: &Mesh<'_>, flips: &[bool], curve: &Adjacency) -> Vec<bool> {
-    let crosses = |e: usize| {
-        let (p, q) = mesh.ends(e);
-        curve.edge(p, q).is_some_and(|number| flips[number as usize])
-    };
-    let mut inside = vec![None; mesh.triangles.len()];
+/// For each vertex: is the place to the right of its first half-edge inside an odd number of rings?
+///
+/// Around a vertex the inside begins and ends at the edges that flip.
+fn inside(mesh: &Mesh<'_>) -> Vec<bool> {
+    let mut inside = vec![None; mesh.delaunay.points().len()];
     let mut stack = Vec::new();
-    if let Some(e) = mesh.twins.iter().position(Option::is_none) {
-        inside[e / 3] = Some(crosses(e));
-        stack.push(e / 3);
+    if let Some(&start) = mesh.delaunay.hull().first() {
+        inside[start as usize] = Some(false);
+        stack.push(start);
     }
-    while let Some(t) = stack.pop() {
-        for e in 3 * t..3 * t + 3 {
-            let Some(twin) = mesh.twins[e] else { continue };
-            let next = twin as usize / 3;
-            if inside[next].is_none() {
-                inside[next] = Some(inside[t] == Some(!crosses(e)));
-                stack.push(next);
+    while let Some(p) = stack.pop() {
+        let mut side = inside[p as usize] == Some(true);
+        for &q in mesh.delaunay.star(p).neighbors {
+            side ^= mesh.is_flip(p, q);
+            if inside[q as usize].is_none() {
+                // What is to the left of p → q is to the right of q → p.
+                let star = mesh.delaunay.star(q).neighbors;
+                let before = star.iter().take_while(|&&r| r != p);
+                let turns = before.filter(|&&r| mesh.is_flip(q, r)).count();
+                inside[q as usize] = Some(side ^ (turns % 2 == 1));
+                stack.push(q);
             }
         }
     }
@@ -143,15 +163,17 @@ fn inside(mesh: &Mesh<'_>, flips: &[bool], curve: &Adjacency) -> Vec<bool> {
 
 /// For each triangle, the first of those on its circle that it is connected with.
 fn one_for_each_circle(mesh: &Mesh<'_>) -> Vec<u32> {
-    let later = |&(e, twin): &(usize, Option<u32>)| twin.is_some_and(|twin| e < twin as usize);
     let ties: Vec<[u32; 2]> = mesh
-        .half_edges()
-        .filter(later)
-        .filter_map(|(e, twin)| Some((e, twin? as usize)))
-        .filter(|&(e, twin)| mesh.is_tie(e, twin))
-        .map(|(e, twin)| [e as u32 / 3, twin as u32 / 3])
+        .vertices()
+        .flat_map_iter(|p| {
+            let ties = mesh.delaunay.edges_from(p).filter(|edge| mesh.is_tie(edge));
+            ties.filter_map(move |edge| mesh.sides(p, mesh.delaunay.star(p).position(edge.q)))
+        })
         .collect();
     let mut first: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
+    if ties.is_empty() {
+        return first;
+    }
     for pair in ties {
         let [a, b] = pair.map(|t| root(&mut first, t));
         first[a.max(b) as usize] = a.min(b);
@@ -174,65 +196,123 @@ fn root(first: &mut [u32], mut t: u32) -> u32 {
 /// An edge of the axis: its samples as rows, the triangles to their left and right, and whether it is inside.
 type Found = ([u32; 2], [u32; 2], bool);
 
-fn collect(mesh: &Mesh<'_>, curve: &Adjacency, inside: &[bool], centers: &[u32]) -> MedialAxis {
-    let open = |e: usize| {
-        let (p, q) = mesh.ends(e);
-        curve.edge(p, q).is_none()
-    };
-    let mut found: Vec<Found> = mesh
-        .half_edges()
-        .filter(|&(e, twin)| twin.is_some_and(|twin| e < twin as usize) && open(e))
-        .filter_map(|(e, twin)| {
-            let [left, right] = [e as u32, twin?].map(|e| centers[e as usize / 3]);
-            let (samples, turned) = rows(mesh, e);
-            let sides = if turned { [right, left] } else { [left, right] };
-            (left != right).then_some((samples, sides, inside[e / 3]))
-        })
-        .collect();
-    found.par_sort_unstable_by_key(|&(samples, _, _)| samples);
-    let mut rays: Vec<([u32; 2], usize)> = (0..mesh.twins.len())
-        .filter(|&e| mesh.twins[e].is_none() && open(e))
-        .map(|e| (rows(mesh, e).0, e))
-        .collect();
-    rays.sort_unstable();
-    assemble(mesh, &found, &rays, centers)
+/// Vertices, or rows, that one task takes at a time.
+const GRAIN: usize = 1 << 13;
+
+/// The edges of the axis between each of `GRAIN` successive vertices and later rows, sorted by these.
+///
+/// Vertices are near each other in memory where they are in the plane; rows need not be.
+#[derive(Default)]
+struct Part {
+    found: Vec<Found>,
+    /// Where those of each vertex end.
+    ends: Vec<usize>,
 }
 
-/// The rows at the ends of half-edge `e`, smaller first, and whether that turns it around.
-fn rows(mesh: &Mesh<'_>, e: usize) -> ([u32; 2], bool) {
-    let (p, q) = mesh.ends(e);
-    let [i, j] = [p, q].map(|vertex| mesh.delaunay.rows()[vertex as usize]);
-    ([i.min(j), i.max(j)], i > j)
+impl Part {
+    fn new(mesh: &Mesh<'_>, first: usize, inside: &[bool], centers: &[u32]) -> Self {
+        let mut part = Self::default();
+        for (k, &inner) in inside.iter().enumerate() {
+            let start = part.found.len();
+            part.extend((first + k) as u32, mesh, inner, centers);
+            part.found[start..].sort_unstable_by_key(|&(samples, _, _)| samples);
+            part.ends.push(part.found.len());
+        }
+        part
+    }
+
+    /// `inner` tells whether the place to the right of the first half-edge from `p` is inside.
+    fn extend(&mut self, p: u32, mesh: &Mesh<'_>, mut inner: bool, centers: &[u32]) {
+        let rows = mesh.delaunay.rows();
+        for (k, &q) in mesh.delaunay.star(p).neighbors.iter().enumerate() {
+            if let Some(number) = mesh.curve.edge(p, q) {
+                inner ^= mesh.flips[number as usize];
+                continue;
+            }
+            let samples = [p, q].map(|vertex| rows[vertex as usize]);
+            let Some(sides) = mesh.sides(p, k).filter(|_| samples[0] < samples[1]) else {
+                continue;
+            };
+            let sides = sides.map(|t| centers[t as usize]);
+            if sides[0] != sides[1] {
+                self.found.push((samples, sides, inner));
+            }
+        }
+    }
+
+    /// The edges of its vertex number `k`.
+    fn of(&self, k: usize) -> &[Found] {
+        let start = if k > 0 { self.ends[k - 1] } else { 0 };
+        &self.found[start..self.ends[k]]
+    }
 }
 
-fn assemble(
-    mesh: &Mesh<'_>,
-    found: &[Found],
-    rays: &[([u32; 2], usize)],
-    centers: &[u32],
-) -> MedialAxis {
-    let mut number = vec![u32::MAX; mesh.triangles.len()];
-    for &t in found.iter().flat_map(|(_, sides, _)| sides) {
-        number[t as usize] = 0;
-    }
-    for &(_, e) in rays {
-        number[centers[e / 3] as usize] = 0;
-    }
-    let used: Vec<u32> = (0..number.len() as u32).filter(|&t| number[t as usize] == 0).collect();
-    for (k, &t) in used.iter().enumerate() {
-        number[t as usize] = k as u32;
-    }
+fn collect(mesh: &Mesh<'_>, inside: &[bool], centers: &[u32]) -> MedialAxis {
+    let parts = inside.par_chunks(GRAIN).enumerate();
+    let mut parts: Vec<Part> =
+        parts.map(|(k, inside)| Part::new(mesh, k * GRAIN, inside, centers)).collect();
+    let rays = rays(mesh);
+    let origins: Vec<u32> =
+        rays.iter().map(|&(_, p, _)| centers[mesh.triangles_at(p)[0] as usize]).collect();
+    let (used, number) = numbers(mesh.triangles.len(), &parts, &origins);
+    parts.par_iter_mut().flat_map_iter(|part| &mut part.found).for_each(|(_, sides, _)| {
+        *sides = sides.map(|t| number[t as usize]);
+    });
     let (vertices, radii) = used.par_iter().map(|&t| center(mesh, t)).unzip();
+    let found = by_rows(mesh.delaunay, &parts);
     MedialAxis {
         vertices,
         radii,
-        edges: found.iter().map(|(_, sides, _)| sides.map(|t| number[t as usize])).collect(),
-        samples: found.iter().map(|&(samples, _, _)| samples).collect(),
-        inner: found.iter().map(|&(_, _, inner)| inner).collect(),
-        ray_origins: rays.iter().map(|&(_, e)| number[centers[e / 3] as usize]).collect(),
-        ray_directions: rays.iter().map(|&(_, e)| outward(mesh.delaunay, mesh.ends(e))).collect(),
-        ray_samples: rays.iter().map(|&(samples, _)| samples).collect(),
+        edges: found.par_iter().map(|&(_, sides, _)| sides).collect(),
+        samples: found.par_iter().map(|&(samples, _, _)| samples).collect(),
+        inner: found.par_iter().map(|&(_, _, inner)| inner).collect(),
+        ray_origins: origins.iter().map(|&t| number[t as usize]).collect(),
+        ray_directions: rays.iter().map(|&(_, p, q)| outward(mesh.delaunay, (p, q))).collect(),
+        ray_samples: rays.iter().map(|&(samples, _, _)| samples).collect(),
     }
+}
+
+/// The edges of the hull that are not selected: rows, sorted, and vertices, counter-clockwise.
+fn rays(mesh: &Mesh<'_>) -> Vec<([u32; 2], u32, u32)> {
+    let delaunay = mesh.delaunay;
+    let hull = delaunay.hull().iter().map(|&p| (p, delaunay.star(p).neighbors[0]));
+    let mut rays: Vec<_> = hull
+        .filter(|&(p, q)| mesh.curve.edge(p, q).is_none())
+        .map(|(p, q)| (crate::edges::rows(delaunay, p, q), p, q))
+        .collect();
+    rays.sort_unstable();
+    rays
+}
+
+/// The triangles whose centers are vertices of the axis, sorted, and for each triangle its number among them.
+fn numbers(triangles: usize, parts: &[Part], origins: &[u32]) -> (Vec<u32>, Vec<u32>) {
+    let is_used: Vec<AtomicBool> =
+        (0..triangles).into_par_iter().map(|_| AtomicBool::new(false)).collect();
+    let mark = |t: u32| is_used[t as usize].store(true, Relaxed);
+    let found = parts.par_iter().flat_map_iter(|part| &part.found);
+    found.for_each(|&(_, sides, _)| sides.into_iter().for_each(mark));
+    origins.iter().copied().for_each(mark);
+    let (mut used, mut number) = (Vec::new(), Vec::with_capacity(triangles));
+    for (t, is_used) in is_used.into_iter().enumerate() {
+        number.push(used.len() as u32);
+        if is_used.into_inner() {
+            used.push(t as u32);
+        }
+    }
+    (used, number)
+}
+
+/// All edges of the axis, sorted by their samples.
+fn by_rows(delaunay: &Delaunay, parts: &[Part]) -> Vec<Found> {
+    let mut vertex = vertices_of_rows(delaunay);
+    for &[row, _] in delaunay.duplicates() {
+        vertex[row as usize] = NONE;
+    }
+    let of_rows = |vertices: &[u32]| {
+        let distinct = vertices.iter().map(|&v| v as usize).filter(|&v| v != NONE as usize);
+        distinct.flat_map(|v| parts[v / GRAIN].of(v % GRAIN)).copied().collect::<Vec<_>>()
+    };
+    vertex.par_chunks(GRAIN).map(of_rows).collect::<Vec<_>>().concat()
 }
 
 /// Where a vertex is known to this part of its radius, floating point is good enough.

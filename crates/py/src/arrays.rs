@@ -4,6 +4,10 @@ use crate::errors::input_error;
 use crustline_core::Point;
 use numpy::{Element, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
+use rayon::prelude::*;
+
+/// Numbers that one task writes at a time.
+const GRAIN: usize = 1 << 16;
 
 /// The rows of an (n, 2) array, without a copy.
 ///
@@ -44,9 +48,11 @@ pub fn integers(
 }
 
 /// A fresh read-only array of coordinates.
-pub fn coordinates<'py>(py: Python<'py>, points: &[Point]) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let array = PyArray2::zeros(py, [points.len(), 2], false);
-    fill(&array, points.as_flattened(), |&x| x)
+pub fn coordinates(py: Python<'_>, points: Vec<Point>) -> PyResult<Bound<'_, PyArray2<f64>>> {
+    let rows = points.len();
+    let array = PyArray1::from_vec(py, points.into_flattened()).reshape([rows, 2])?;
+    array.readwrite().make_nonwriteable();
+    Ok(array)
 }
 
 /// Any values as a fresh read-only array.
@@ -56,15 +62,19 @@ pub fn values<T: Element>(py: Python<'_>, values: Vec<T>) -> Bound<'_, PyArray1<
     array
 }
 
-fn fill<'py, S, T: Element + Copy>(
+fn fill<'py, S: Sync, T: Element + Copy>(
     array: &Bound<'py, PyArray2<T>>,
     source: &[S],
-    convert: impl Fn(&S) -> T,
+    convert: impl Fn(&S) -> T + Sync,
 ) -> PyResult<Bound<'py, PyArray2<T>>> {
     let mut writable = array.readwrite();
-    for (target, value) in writable.as_slice_mut()?.iter_mut().zip(source) {
-        *target = convert(value);
-    }
+    let (targets, parts) =
+        (writable.as_slice_mut()?.par_chunks_mut(GRAIN), source.par_chunks(GRAIN));
+    targets.zip(parts).for_each(|(targets, values)| {
+        for (target, value) in targets.iter_mut().zip(values) {
+            *target = convert(value);
+        }
+    });
     writable.make_nonwriteable();
     Ok(array.clone())
 }

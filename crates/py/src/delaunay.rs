@@ -54,7 +54,7 @@ impl Delaunay {
 
     /// The circumcenters (t, 2).
     fn circumcenters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        coordinates(py, &py.detach(|| self.inner.circumcenters()))
+        coordinates(py, py.detach(|| self.inner.circumcenters()))
     }
 
     /// The circumradii (t,).

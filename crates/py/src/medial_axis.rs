@@ -30,13 +30,13 @@ pub fn medial_axis<'py>(
         ray_samples,
     } = call.run(py, |progress| axis(core, &edges, progress))?;
     let fields = PyDict::new(py);
-    fields.set_item("vertices", coordinates(py, &vertices)?)?;
+    fields.set_item("vertices", coordinates(py, vertices)?)?;
     fields.set_item("radii", values(py, radii))?;
     fields.set_item("edges", integer_rows(py, &edges)?)?;
     fields.set_item("samples", integer_rows(py, &samples)?)?;
     fields.set_item("inner", values(py, inner))?;
     fields.set_item("ray_origins", integers(py, ray_origins.into_iter().map(i64::from)))?;
-    fields.set_item("ray_directions", coordinates(py, &ray_directions)?)?;
+    fields.set_item("ray_directions", coordinates(py, ray_directions)?)?;
     fields.set_item("ray_samples", integer_rows(py, &ray_samples)?)?;
     Ok(fields)
 }

@@ -12,7 +12,8 @@ use crate::point::Point;
 use crate::progress::{Progress, Stage};
 use divide::{SLOTS, Vertices, triangulate};
 use order::{Order, order};
-use rings::{HalfEdge, NONE};
+use rings::HalfEdge;
+pub use rings::NONE;
 pub use stars::{Star, Stars};
 
 /// The most points that one triangulation can hold: half-edges are numbered in 32 bits.

@@ -61,6 +61,17 @@ impl<'a> Star<'a> {
         }
     }
 
+    /// The number of `neighbor`.
+    ///
+    /// # Panics
+    /// If it is not in the star.
+    #[inline]
+    #[must_use]
+    pub fn position(&self, neighbor: u32) -> usize {
+        let position = self.neighbors.iter().position(|&other| other == neighbor);
+        position.expect("stars are symmetric")
+    }
+
     /// The wedges: pairs of successive neighbors that a triangle spans.
     pub fn wedges(&self) -> impl Iterator<Item = (u32, u32)> + use<'a> {
         let star = *self;
@@ -108,6 +119,21 @@ impl Stars {
             on_hull: self.on_hull[v],
             flat: self.is_flat(),
         }
+    }
+
+    /// One value for each half-edge, those of one star after another: `write` gets a vertex and its part of them.
+    pub fn map<T: Copy + Send>(&self, empty: T, write: impl Fn(u32, &mut [T]) + Sync) -> Vec<T> {
+        let mut values = vec![empty; self.half_edges()];
+        let parts = split(&mut values, &self.offsets);
+        parts.into_par_iter().enumerate().for_each(|(k, mut part)| {
+            let first = k * GRAIN;
+            for v in first..(first + GRAIN).min(self.on_hull.len()) {
+                let (star, rest) = part.split_at_mut(self.star(v as u32).neighbors.len());
+                write(v as u32, star);
+                part = rest;
+            }
+        });
+        values
     }
 
     /// Where the star of `vertex` starts in the row of all neighbors.
@@ -170,7 +196,7 @@ fn walk_hull(slots: &[HalfEdge], start: u32, first: &mut [u32]) -> Vec<u32> {
 }
 
 /// The parts of all neighbors that belong to `GRAIN` successive vertices each.
-fn split<'a>(mut neighbors: &'a mut [u32], offsets: &[u32]) -> Vec<&'a mut [u32]> {
+fn split<'a, T>(mut neighbors: &'a mut [T], offsets: &[u32]) -> Vec<&'a mut [T]> {
     let mut parts = Vec::new();
     let last = offsets.len() - 1;
     for start in (0..last).step_by(GRAIN) {

@@ -76,7 +76,7 @@ pub struct Tree {
 /// The memory of a run of queries.
 #[derive(Debug, Default)]
 pub struct Query {
-    stack: Vec<(f64, usize, usize)>,
+    stack: Vec<(f64, u32, u32)>,
     last: usize,
 }
 
@@ -107,16 +107,18 @@ impl Tree {
         let Some(guess) = self.segments.get(query.last) else { return (0, f64::INFINITY) };
         let mut best = guess.square(p);
         query.stack.clear();
-        query.stack.push((0.0, self.levels.len() - 1, 0));
+        query.stack.push((0.0, self.levels.len() as u32 - 1, 0));
         while let Some((square, level, node)) = query.stack.pop() {
             if square >= best * (1.0 - GAIN) {
                 continue;
             }
             if level == 0 {
-                for k in FAN * node..(FAN * node + FAN).min(self.segments.len()) {
-                    let square = self.segments[k].square(p);
+                let first = FAN * node as usize;
+                let end = (first + FAN).min(self.segments.len());
+                for (k, segment) in self.segments[first..end].iter().enumerate() {
+                    let square = segment.square(p);
                     if square < best {
-                        (best, query.last) = (square, k);
+                        (best, query.last) = (square, first + k);
                     }
                 }
             } else {
@@ -127,20 +129,20 @@ impl Tree {
     }
 
     /// Push the children of a box that are near enough, the nearest last.
-    fn open(
-        &self,
-        p: Point,
-        level: usize,
-        node: usize,
-        best: f64,
-        stack: &mut Vec<(f64, usize, usize)>,
-    ) {
-        let below = &self.levels[level - 1];
+    fn open(&self, p: Point, level: u32, node: u32, best: f64, stack: &mut Vec<(f64, u32, u32)>) {
+        let below = &self.levels[level as usize - 1];
+        let first = FAN * node as usize;
+        let children = &below[first..(first + FAN).min(below.len())];
         let start = stack.len();
-        let children = below.iter().enumerate().skip(FAN * node).take(FAN);
-        let squares = children.map(|(child, bounds)| (square_to(bounds, p), level - 1, child));
-        stack.extend(squares.filter(|&(square, _, _)| square < best));
-        stack[start..].sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+        for (k, bounds) in children.iter().enumerate() {
+            let square = square_to(bounds, p);
+            if square < best * (1.0 - GAIN) {
+                stack.push((square, level - 1, (first + k) as u32));
+            }
+        }
+        if stack.len() > start + 1 {
+            stack[start..].sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+        }
     }
 }
 
