@@ -56,9 +56,11 @@ format: build ## Format both languages.
 	$(BIN)/ruff format .
 
 bench: build ## Time crustline against its rivals; writes docs/benchmarks.md (tens of minutes).
+	$(BIN)/pip install --quiet --disable-pip-version-check -r benchmarks/requirements.txt
 	$(BIN)/python -m benchmarks.run
 
 bench-quick: build ## The same in under a minute, to the terminal.
+	$(BIN)/pip install --quiet --disable-pip-version-check -r benchmarks/requirements.txt
 	$(BIN)/python -m benchmarks.run --quick
 
 bench-instructions: ## Count instructions with callgrind and fail past 5 % more than stored.
