@@ -66,8 +66,12 @@ bench-quick: build ## The same in under a minute, to the terminal.
 bench-instructions: ## Count instructions with callgrind and fail past 5 % more than stored.
 	$(PYTHON) -m benchmarks.instructions
 
-fuzz: ## Fuzz the triangulation for a minute (needs cargo-fuzz and a nightly toolchain).
-	cd crates/core && cargo fuzz run delaunay -- -max_total_time=60
+# What cargo-fuzz would pass, so that a stable toolchain serves.
+COVERAGE := -Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 -Cllvm-args=-sanitizer-coverage-inline-8bit-counters \
+	-Cllvm-args=-sanitizer-coverage-pc-table -Ccodegen-units=1 --cfg fuzzing
+
+fuzz: ## Fuzz the triangulation and the crust for a minute.
+	cd crates/core/fuzz && RUSTFLAGS="$(COVERAGE)" cargo run --release --target "$$(rustc -vV | sed -n 's/host: //p')" -- -max_total_time=60 -max_len=512
 
 figures: build ## Redraw the paper's figures into docs/gallery/.
 	$(BIN)/python -m docs.figures
