@@ -590,43 +590,18 @@ def _svg(curves: SmoothCurves, tolerance: float | None) -> bytes:
     beziers = curves.beziers(tolerance)
     lonely = curves.curves.coordinates[curves.curves.isolated]
     # Control points enclose their curve.
-    frame = svg._frame(np.concatenate([lonely, *(each.reshape(-1, 2) for each in beziers)]))
-    margin = svg._MARGIN * float((frame.high - frame.low).max()) or 1.0
-    x, y = frame.low - margin
-    width, height = frame.high - frame.low + 2 * margin
-    box = " ".join(f"{each:.9g}" for each in (x, -y - height, width, height))
-    pixels = max(1, min(4 * svg._WIDTH, round(svg._WIDTH * height / width)))
-    note = f' data-origin="{frame.origin[0]!s} {frame.origin[1]!s}" data-scale="{frame.scale!r}"'
-    plain = not frame.origin.any() and frame.scale == 1
-    lines = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" width="{svg._WIDTH}"'
-        f' height="{pixels}"{"" if plain else note}>',
-        f"<title>{svg._title(curves.curves)}</title>",
-        f'<g transform="scale(1 -1)" {svg._STYLE}>',
-        *_svg_paths(curves, [frame.place(each) for each in beziers]),
-        *_svg_dots(frame.place(lonely)),
-        "</g>",
-        "</svg>",
-        "",
-    ]
-    return "\n".join(lines).encode()
+    frame = svg.frame_of(np.concatenate([lonely, *(each.reshape(-1, 2) for each in beziers)]))
+    paths = _svg_paths(curves, [frame.place(each) for each in beziers])
+    return svg.document(frame, curves.curves, [*paths, *svg.dots(frame.place(lonely))])
 
 
 def _svg_paths(curves: SmoothCurves, beziers: list[FloatArray]) -> Iterator[str]:
-    from crustline.formats.svg import _element, _short
+    from crustline.formats.svg import element, short
 
     for spline, control in zip(curves, beziers, strict=True):
-        start = " ".join(map(_short, control[0, 0].tolist()))
-        rest = " ".join(map(_short, control[:, 1:].ravel().tolist()))
-        yield _element(f"M{start}C{rest}{'Z' if spline.closed else ''}")
-
-
-def _svg_dots(places: FloatArray) -> Iterator[str]:
-    from crustline.formats.svg import _element, _short
-
-    if len(places):
-        dots = "".join(f"M{_short(x)} {_short(y)}h0" for x, y in places.tolist())
-        yield _element(dots, ' stroke="#c2410c" stroke-width="5"')
+        start = " ".join(map(short, control[0, 0].tolist()))
+        rest = " ".join(map(short, control[:, 1:].ravel().tolist()))
+        yield element(f"M{start}C{rest}{'Z' if spline.closed else ''}")
 
 
 def _draw(splines: Sequence[Spline], color: str, ax: Axes) -> None:

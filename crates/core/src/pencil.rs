@@ -5,11 +5,9 @@
 //! t < τ(v), with τ(v) = (v−p)·(v−q) / 2 (q−p)×(v−p). The paper's disks "touching s₁ and s₂" are this pencil.
 
 use crate::point::{Point, cross, dot, sub};
-use crate::sign::{self, Form, Number};
+use crate::sign::{self, Form, Number, ROUNDING};
 use crate::voronoi::{Center, HomogeneousCenter};
 use std::cmp::Ordering::{self, Equal, Greater, Less};
-
-const ROUNDING: f64 = f64::EPSILON / 2.0;
 
 /// The circles through `p` and `q`.
 #[derive(Debug, Clone, Copy)]

@@ -6,13 +6,12 @@
 //! underflows, so coordinates that small take the integers of [`sign`](crate::sign) instead.
 
 use crate::point::{Point, cross, dot, sub};
-use crate::sign::{Form, Number, exact_sign, small_differences};
+use crate::sign::{Form, Number, ROUNDING, exact_sign, small_differences};
 use ethnum::I256;
 use std::cmp::Ordering::{self, Greater};
 
-const EPSILON: f64 = f64::EPSILON / 2.0;
-const ORIENT_BOUND: f64 = (3.0 + 16.0 * EPSILON) * EPSILON;
-const IN_CIRCLE_BOUND: f64 = (10.0 + 96.0 * EPSILON) * EPSILON;
+const ORIENT_BOUND: f64 = (3.0 + 16.0 * ROUNDING) * ROUNDING;
+const IN_CIRCLE_BOUND: f64 = (10.0 + 96.0 * ROUNDING) * ROUNDING;
 /// More than all that underflow can take away from a determinant of coordinates up to 2^200.
 const UNDERFLOW: f64 = 1e-150;
 

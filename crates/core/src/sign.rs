@@ -132,7 +132,7 @@ pub struct Approximate {
 }
 
 /// Half the distance from 1 to the next double: the relative error of one rounding.
-const ROUNDING: f64 = f64::EPSILON / 2.0;
+pub const ROUNDING: f64 = f64::EPSILON / 2.0;
 /// Covers the roundings made in computing the bounds themselves.
 const SLACK: f64 = 1.0 + 1e-9;
 

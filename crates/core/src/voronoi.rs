@@ -1,10 +1,7 @@
 //! Voronoi vertices: the circumcenters of the triangles, estimated with an error bound and exact where asked.
 
 use crate::point::{Point, cross, dot, sub};
-use crate::sign::{self, Form, Number};
-
-/// The relative error of one rounding.
-const ROUNDING: f64 = f64::EPSILON / 2.0;
+use crate::sign::{self, Form, Number, ROUNDING};
 
 /// A circumcenter relative to some origin, and a bound on the distance to the true one.
 #[derive(Debug, Clone, Copy)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -40,7 +40,12 @@ class _Frame:
 
 def write_svg(curves: Curves, *, polygons: bool = False) -> bytes:
     """Return a picture of the curves; the same curves give the same text."""
-    frame = _frame(curves.coordinates)
+    frame = frame_of(curves.coordinates)
+    return document(frame, curves, _paths(curves, frame, polygons))
+
+
+def document(frame: _Frame, curves: Curves, elements: Iterable[str]) -> bytes:
+    """Return the whole drawing: the elements, placed in the frame, under a title that counts."""
     margin = _MARGIN * float((frame.high - frame.low).max()) or 1.0
     x, y = frame.low - margin
     width, height = frame.high - frame.low + 2 * margin
@@ -53,7 +58,7 @@ def write_svg(curves: Curves, *, polygons: bool = False) -> bytes:
         f' height="{pixels}"{"" if plain else note}>',
         f"<title>{_title(curves)}</title>",
         f'<g transform="scale(1 -1)" {_STYLE}>',
-        *_paths(curves, frame, polygons),
+        *elements,
         "</g>",
         "</svg>",
         "",
@@ -73,7 +78,7 @@ def _title(curves: Curves) -> str:
     return ", ".join(f"{count} {word}{'s' * (count != 1)}" for count, word in counts if count)
 
 
-def _frame(coordinates: FloatArray) -> _Frame:
+def frame_of(coordinates: FloatArray) -> _Frame:
     if len(coordinates) == 0:
         return _Frame(np.zeros(2), 1.0, np.zeros(2), np.ones(2))
     low, high = coordinates.min(axis=0), coordinates.max(axis=0)
@@ -93,26 +98,30 @@ def _power(size: float) -> int:
 def _paths(curves: Curves, frame: _Frame, polygons: bool) -> Iterator[str]:
     def path(rows: IntArray, closed: bool) -> str:
         numbers = frame.place(curves.coordinates[rows]).T.tolist()
-        positions = map(" ".join, zip(*(map(_short, each) for each in numbers), strict=True))
+        positions = map(" ".join, zip(*(map(short, each) for each in numbers), strict=True))
         return f"M{'L'.join(positions)}{'Z' if closed else ''}"
 
     for polygon in curves.polygons() if polygons else []:
         body = "".join(path(ring, True) for ring in (polygon.shell, *polygon.holes))
-        yield _element(body, ' fill="#1f5fa8" fill-opacity="0.15"')
+        yield element(body, ' fill="#1f5fa8" fill-opacity="0.15"')
     for curve in curves:
         if not (polygons and curve.closed):
-            yield _element(path(curve.indices, curve.closed))
-    if len(curves.isolated):
+            yield element(path(curve.indices, curve.closed))
+    yield from dots(frame.place(curves.coordinates[curves.isolated]))
+
+
+def dots(places: FloatArray) -> Iterator[str]:
+    """Yield the element that draws the isolated points, if there are any."""
+    if len(places):
         # A line of no length with round ends is a dot, whatever the zoom.
-        numbers = frame.place(curves.coordinates[curves.isolated]).tolist()
-        dots = "".join(f"M{_short(x)} {_short(y)}h0" for x, y in numbers)
-        yield _element(dots, ' stroke="#c2410c" stroke-width="5"')
+        lines = "".join(f"M{short(x)} {short(y)}h0" for x, y in places.tolist())
+        yield element(lines, ' stroke="#c2410c" stroke-width="5"')
 
 
-def _element(body: str, style: str = "") -> str:
+def element(body: str, style: str = "") -> str:
     return f'<path d="{body}" vector-effect="non-scaling-stroke"{style}/>'
 
 
-def _short(number: float) -> str:
+def short(number: float) -> str:
     """Return the shortest text of a number that gives it again, integers without a point."""
     return repr(number).removesuffix(".0")

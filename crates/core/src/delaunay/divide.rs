@@ -174,19 +174,15 @@ impl Cell<'_> {
 
     /// The extremes among `hull`, which holds them.
     fn extremes(&self, hull: &[HullVertex]) -> Extremes {
-        let first = |cut: Cut| {
-            let earlier = |a, b| if self.precedes(cut, b, a) { b } else { a };
-            hull.iter().copied().reduce(earlier).expect("there is a vertex")
-        };
-        let last = |cut: Cut| {
-            let later = |a, b| if self.precedes(cut, a, b) { b } else { a };
-            hull.iter().copied().reduce(later).expect("there is a vertex")
-        };
+        let all = hull.iter().copied();
+        let first = |cut| all.clone().reduce(|a, b| self.earlier(cut, a, b));
+        let last = |cut| all.clone().reduce(|a, b| self.later(cut, a, b));
+        let present = |vertex: Option<HullVertex>| vertex.expect("there is a vertex");
         Extremes {
-            left: first(Cut::Vertical),
-            right: last(Cut::Vertical),
-            bottom: first(Cut::Horizontal),
-            top: last(Cut::Horizontal),
+            left: present(first(Cut::Vertical)),
+            right: present(last(Cut::Vertical)),
+            bottom: present(first(Cut::Horizontal)),
+            top: present(last(Cut::Horizontal)),
         }
     }
 
@@ -195,21 +191,29 @@ impl Cell<'_> {
         cut.precedes(self.point(a.vertex), self.point(b.vertex))
     }
 
+    #[inline]
+    fn earlier(&self, cut: Cut, a: HullVertex, b: HullVertex) -> HullVertex {
+        if self.precedes(cut, b, a) { b } else { a }
+    }
+
+    #[inline]
+    fn later(&self, cut: Cut, a: HullVertex, b: HullVertex) -> HullVertex {
+        if self.precedes(cut, a, b) { b } else { a }
+    }
+
     /// The extremes of two cells on the two sides of a cut; across the cut there is nothing to compare.
     #[inline]
     fn join(&self, low: Extremes, high: Extremes, cut: Cut) -> Extremes {
-        let first = |cut, a, b| if self.precedes(cut, b, a) { b } else { a };
-        let last = |cut, a, b| if self.precedes(cut, a, b) { b } else { a };
         match cut {
             Cut::Vertical => Extremes {
                 left: low.left,
                 right: high.right,
-                bottom: first(Cut::Horizontal, low.bottom, high.bottom),
-                top: last(Cut::Horizontal, low.top, high.top),
+                bottom: self.earlier(Cut::Horizontal, low.bottom, high.bottom),
+                top: self.later(Cut::Horizontal, low.top, high.top),
             },
             Cut::Horizontal => Extremes {
-                left: first(Cut::Vertical, low.left, high.left),
-                right: last(Cut::Vertical, low.right, high.right),
+                left: self.earlier(Cut::Vertical, low.left, high.left),
+                right: self.later(Cut::Vertical, low.right, high.right),
                 bottom: low.bottom,
                 top: high.top,
             },
