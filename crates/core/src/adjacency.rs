@@ -2,6 +2,7 @@
 
 use crate::delaunay::Delaunay;
 use crate::edges::{Edges, sort};
+use rayon::prelude::*;
 
 /// The neighbors of every vertex along some edges.
 #[derive(Debug, Clone, Default)]
@@ -19,12 +20,12 @@ impl Adjacency {
     #[must_use]
     pub fn new(delaunay: &Delaunay, edges: &Edges) -> Self {
         let vertex = vertices_of_rows(delaunay);
-        let mapped: Edges = edges
-            .iter()
-            .map(|edge| edge.map(|row| vertex[row as usize]))
-            .filter(|[p, q]| p != q)
-            .map(|[p, q]| [p.min(q), p.max(q)])
-            .collect();
+        let of_rows = |edge: &[u32; 2]| {
+            let [p, q] = edge.map(|row| vertex[row as usize]);
+            [p.min(q), p.max(q)]
+        };
+        let mut mapped: Edges = edges.par_iter().map(of_rows).collect();
+        mapped.retain(|[p, q]| p != q);
         Self::of_vertices(&[mapped], delaunay.points().len())
     }
 

@@ -4,12 +4,13 @@
 //! a flood over the vertices, which flips where it crosses a ring.
 
 use crate::adjacency::{Adjacency, vertices_of_rows};
-use crate::delaunay::{Delaunay, Edge, NONE};
+use crate::delaunay::{Delaunay, NONE};
 use crate::edges::Edges;
 use crate::error::Result;
-use crate::point::{Point, sub};
+use crate::point::{Point, length, lexicographic, sub};
 use crate::predicates::in_circle;
 use crate::progress::Progress;
+use crate::sign::ROUNDING;
 use crate::trace::trace;
 use crate::voronoi::{Center, circumcenter};
 use rayon::prelude::*;
@@ -53,8 +54,8 @@ pub fn medial_axis(delaunay: &Delaunay, edges: &Edges, progress: &Progress) -> R
     let wedges = delaunay.wedge_triangles();
     progress.advance(0)?;
     let flips = flipping(delaunay, &curve, progress)?;
-    let mesh =
-        Mesh { delaunay, triangles: &triangles, wedges: &wedges, curve: &curve, flips: &flips };
+    let circles: Vec<Circle> = triangles.par_iter().map(|t| Circle::new(delaunay, t)).collect();
+    let mesh = Mesh { delaunay, circles: &circles, wedges: &wedges, curve: &curve, flips: &flips };
     let centers = one_for_each_circle(&mesh);
     progress.advance(0)?;
     let inside = inside(&mesh);
@@ -65,7 +66,8 @@ pub fn medial_axis(delaunay: &Delaunay, edges: &Edges, progress: &Progress) -> R
 /// The triangulation as stars, with curves in it.
 struct Mesh<'a> {
     delaunay: &'a Delaunay,
-    triangles: &'a [[u32; 3]],
+    /// The circle through the corners of each triangle.
+    circles: &'a [Circle],
     /// The triangle to the left of each half-edge.
     wedges: &'a [u32],
     curve: &'a Adjacency,
@@ -81,14 +83,6 @@ impl Mesh<'_> {
         &self.wedges[start..start + count]
     }
 
-    /// Are the triangles on both sides of `edge` on one circle?
-    fn is_tie(&self, edge: &Edge) -> bool {
-        let (Some(left), Some(right)) = (edge.left, edge.right) else { return false };
-        let [p, q, a, b] = [edge.p, edge.q, left, right].map(|v| self.delaunay.point(v));
-        // The far apex is never inside; with the orientation turned around, this says that it is not outside.
-        !in_circle(q, p, a, b)
-    }
-
     /// The triangles to the left and to the right of half-edge `k` of the star of `p`.
     fn sides(&self, p: u32, k: usize) -> Option<[u32; 2]> {
         let triangles = self.triangles_at(p);
@@ -97,10 +91,29 @@ impl Mesh<'_> {
         (!sides.contains(&NONE)).then_some(sides)
     }
 
-    /// Does the edge p q separate inside and outside?
-    #[inline]
-    fn is_flip(&self, p: u32, q: u32) -> bool {
-        self.curve.edge(p, q).is_some_and(|number| self.flips[number as usize])
+    /// The pairs of triangles on both sides of edges from `p` to later vertices that are on one circle.
+    fn ties(&self, p: u32) -> impl Iterator<Item = [u32; 2]> {
+        let star = self.delaunay.star(p);
+        let later = (0..star.neighbors.len()).filter(move |&k| star.neighbors[k] > p);
+        later.filter_map(move |k| {
+            let sides = self.sides(p, k)?;
+            let [left, right] = sides.map(|t| &self.circles[t as usize]);
+            if left.differs(right) {
+                return None;
+            }
+            let corners = [star.neighbors[k], p, star.left(k)?, star.right(k)?];
+            let [q, p, left, right] = corners.map(|v| self.delaunay.point(v));
+            // The far apex is never inside; with the orientation turned around, this says that it is not outside.
+            (!in_circle(q, p, left, right)).then_some(sides)
+        })
+    }
+
+    /// How many of the first `count` half-edges from `p` separate inside and outside?
+    fn flips_before(&self, p: u32, count: usize) -> usize {
+        let first = &self.delaunay.star(p).neighbors[..count];
+        let is_first =
+            |&&(q, number): &&(u32, u32)| self.flips[number as usize] && first.contains(&q);
+        self.curve.of(p).iter().filter(is_first).count()
     }
 
     fn vertices(&self) -> impl IndexedParallelIterator<Item = u32> {
@@ -136,41 +149,47 @@ fn flipping(delaunay: &Delaunay, curve: &Adjacency, progress: &Progress) -> Resu
 
 /// For each vertex: is the place to the right of its first half-edge inside an odd number of rings?
 ///
-/// Around a vertex the inside begins and ends at the edges that flip.
+/// Every vertex but the leftmost has a neighbor that comes before it from left to right, so steps to such neighbors lead
+/// from each vertex to the leftmost, whose first half-edge has the outside to its right.
 fn inside(mesh: &Mesh<'_>) -> Vec<bool> {
-    let mut inside = vec![None; mesh.delaunay.points().len()];
-    let mut stack = Vec::new();
-    if let Some(&start) = mesh.delaunay.hull().first() {
-        inside[start as usize] = Some(false);
-        stack.push(start);
-    }
-    while let Some(p) = stack.pop() {
-        let mut side = inside[p as usize] == Some(true);
-        for &q in mesh.delaunay.star(p).neighbors {
-            side ^= mesh.is_flip(p, q);
-            if inside[q as usize].is_none() {
-                // What is to the left of p → q is to the right of q → p.
-                let star = mesh.delaunay.star(q).neighbors;
-                let before = star.iter().take_while(|&&r| r != p);
-                let turns = before.filter(|&&r| mesh.is_flip(q, r)).count();
-                inside[q as usize] = Some(side ^ (turns % 2 == 1));
-                stack.push(q);
-            }
+    let steps: Vec<(u32, bool)> = mesh.vertices().map(|v| step_left(mesh, v)).collect();
+    let mut inside = vec![None; steps.len()];
+    let mut path = Vec::new();
+    for v in 0..steps.len() {
+        let mut at = v;
+        while inside[at].is_none() && steps[at].0 != NONE {
+            path.push(at);
+            at = steps[at].0 as usize;
+        }
+        let mut is_inside = inside[at].unwrap_or(false);
+        inside[at] = Some(is_inside);
+        while let Some(back) = path.pop() {
+            is_inside ^= steps[back].1;
+            inside[back] = Some(is_inside);
         }
     }
     inside.into_iter().map(|inside| inside == Some(true)).collect()
 }
 
+/// A neighbor of `v` before it from left to right, and whether only one of their first half-edges has the inside to its right.
+///
+/// Around a vertex the inside begins and ends at the edges that flip.
+fn step_left(mesh: &Mesh<'_>, v: u32) -> (u32, bool) {
+    let star = mesh.delaunay.star(v);
+    let is_before =
+        |q: u32| lexicographic(&mesh.delaunay.point(q), &mesh.delaunay.point(v)).is_lt();
+    let Some(k) = star.neighbors.iter().position(|&q| is_before(q)) else { return (NONE, false) };
+    let q = star.neighbors[k];
+    // What is to the left of v → q is to the right of q → v.
+    let flips =
+        mesh.flips_before(v, k + 1) + mesh.flips_before(q, mesh.delaunay.star(q).position(v));
+    (q, flips % 2 == 1)
+}
+
 /// For each triangle, the first of those on its circle that it is connected with.
 fn one_for_each_circle(mesh: &Mesh<'_>) -> Vec<u32> {
-    let ties: Vec<[u32; 2]> = mesh
-        .vertices()
-        .flat_map_iter(|p| {
-            let ties = mesh.delaunay.edges_from(p).filter(|edge| mesh.is_tie(edge));
-            ties.filter_map(move |edge| mesh.sides(p, mesh.delaunay.star(p).position(edge.q)))
-        })
-        .collect();
-    let mut first: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
+    let ties: Vec<[u32; 2]> = mesh.vertices().flat_map_iter(|p| mesh.ties(p)).collect();
+    let mut first: Vec<u32> = (0..mesh.circles.len() as u32).collect();
     if ties.is_empty() {
         return first;
     }
@@ -249,23 +268,23 @@ impl Part {
 
 fn collect(mesh: &Mesh<'_>, inside: &[bool], centers: &[u32]) -> MedialAxis {
     let parts = inside.par_chunks(GRAIN).enumerate();
-    let mut parts: Vec<Part> =
+    let parts: Vec<Part> =
         parts.map(|(k, inside)| Part::new(mesh, k * GRAIN, inside, centers)).collect();
     let rays = rays(mesh);
     let origins: Vec<u32> =
         rays.iter().map(|&(_, p, _)| centers[mesh.triangles_at(p)[0] as usize]).collect();
-    let (used, number) = numbers(mesh.triangles.len(), &parts, &origins);
-    parts.par_iter_mut().flat_map_iter(|part| &mut part.found).for_each(|(_, sides, _)| {
-        *sides = sides.map(|t| number[t as usize]);
-    });
-    let (vertices, radii) = used.par_iter().map(|&t| center(mesh, t)).unzip();
+    let (used, number) = numbers(mesh.circles.len(), &parts, &origins);
+    let scale = mesh.delaunay.scale();
+    let circle = |&t: &u32| &mesh.circles[t as usize];
+    let vertices = used.par_iter().map(|t| circle(t).center.map(|x| x / scale)).collect();
+    let radii = used.par_iter().map(|t| circle(t).radius / scale).collect();
     let found = by_rows(mesh.delaunay, &parts);
     MedialAxis {
         vertices,
         radii,
-        edges: found.par_iter().map(|&(_, sides, _)| sides).collect(),
-        samples: found.par_iter().map(|&(samples, _, _)| samples).collect(),
-        inner: found.par_iter().map(|&(_, _, inner)| inner).collect(),
+        edges: column(&found, |&(_, sides, _)| sides.map(|t| number[t as usize])),
+        samples: column(&found, |&(samples, _, _)| samples),
+        inner: column(&found, |&(_, _, inner)| inner),
         ray_origins: origins.iter().map(|&t| number[t as usize]).collect(),
         ray_directions: rays.iter().map(|&(_, p, q)| outward(mesh.delaunay, (p, q))).collect(),
         ray_samples: rays.iter().map(|&(samples, _, _)| samples).collect(),
@@ -302,8 +321,8 @@ fn numbers(triangles: usize, parts: &[Part], origins: &[u32]) -> (Vec<u32>, Vec<
     (used, number)
 }
 
-/// All edges of the axis, sorted by their samples.
-fn by_rows(delaunay: &Delaunay, parts: &[Part]) -> Vec<Found> {
+/// All edges of the axis, sorted by their samples, those of `GRAIN` successive rows at a time.
+fn by_rows(delaunay: &Delaunay, parts: &[Part]) -> Vec<Vec<Found>> {
     let mut vertex = vertices_of_rows(delaunay);
     for &[row, _] in delaunay.duplicates() {
         vertex[row as usize] = NONE;
@@ -312,22 +331,58 @@ fn by_rows(delaunay: &Delaunay, parts: &[Part]) -> Vec<Found> {
         let distinct = vertices.iter().map(|&v| v as usize).filter(|&v| v != NONE as usize);
         distinct.flat_map(|v| parts[v / GRAIN].of(v % GRAIN)).copied().collect::<Vec<_>>()
     };
-    vertex.par_chunks(GRAIN).map(of_rows).collect::<Vec<_>>().concat()
+    vertex.par_chunks(GRAIN).map(of_rows).collect()
 }
 
-/// Where a vertex is known to this part of its radius, floating point is good enough.
+/// A field of all edges of the axis.
+fn column<T: Copy + Default + Send>(
+    found: &[Vec<Found>],
+    field: impl Fn(&Found) -> T + Sync,
+) -> Vec<T> {
+    let mut column = vec![T::default(); found.iter().map(Vec::len).sum()];
+    let mut rest = column.as_mut_slice();
+    let mut tasks = Vec::with_capacity(found.len());
+    for part in found {
+        let (target, tail) = rest.split_at_mut(part.len());
+        tasks.push((part, target));
+        rest = tail;
+    }
+    tasks.into_par_iter().for_each(|(part, target)| {
+        part.iter().zip(target).for_each(|(found, value)| *value = field(found));
+    });
+    column
+}
+
+/// The circle through the corners of a triangle, in the scale of the triangulation.
+struct Circle {
+    center: Point,
+    radius: f64,
+    /// A bound on the distance from the center to the true one.
+    error: f64,
+}
+
+/// Where a center is known to this part of its radius, floating point is good enough.
 ///
 /// A flat triangle's center depends on the rounding of the samples themselves by more than this.
 const ACCURACY: f64 = 1e-7;
 
-/// The circumcenter of triangle `t` and its radius, in the scale of the input.
-fn center(mesh: &Mesh<'_>, t: u32) -> (Point, f64) {
-    let corners = mesh.triangles[t as usize].map(|vertex| mesh.delaunay.point(vertex));
-    let Center { at, error } = Center::estimate(corners, corners[0]);
-    let from = if error <= ACCURACY * at[0].hypot(at[1]) { at } else { circumcenter(corners) };
-    let scale = mesh.delaunay.scale();
-    let at = [0, 1].map(|axis| (corners[0][axis] + from[axis]) / scale);
-    (at, from[0].hypot(from[1]) / scale)
+impl Circle {
+    fn new(delaunay: &Delaunay, triangle: &[u32; 3]) -> Self {
+        let corners = triangle.map(|vertex| delaunay.point(vertex));
+        let Center { at, error } = Center::estimate(corners, corners[0]);
+        let is_known = error <= ACCURACY * length(at);
+        let from = if is_known { at } else { circumcenter(corners) };
+        let center = [corners[0][0] + from[0], corners[0][1] + from[1]];
+        let rounding = ROUNDING * (center[0].abs() + center[1].abs());
+        let error = if is_known { error + rounding } else { f64::INFINITY };
+        Self { center, radius: length(from), error }
+    }
+
+    /// Are the centers certainly not the same?
+    fn differs(&self, other: &Self) -> bool {
+        let step = sub(self.center, other.center);
+        step[0].abs().max(step[1].abs()) > 1.001 * (self.error + other.error)
+    }
 }
 
 /// The unit normal to the right of p → q.

@@ -30,3 +30,11 @@ pub fn lexicographic(a: &Point, b: &Point) -> std::cmp::Ordering {
     // 0.0 and -0.0 are one coordinate, so `total_cmp` would not do.
     a.partial_cmp(b).expect("coordinates are finite")
 }
+
+/// The length of `v`, without the cost of `hypot` where squares neither overflow nor vanish.
+#[inline]
+#[must_use]
+pub fn length(v: Point) -> f64 {
+    let square = dot(v, v);
+    if square.is_normal() { square.sqrt() } else { v[0].hypot(v[1]) }
+}

@@ -41,8 +41,8 @@ pub fn disks(delaunay: &Delaunay, bends: &[Option<Bend>], v: u32) -> Disks {
     let Some(bend) = &bends[v as usize] else { return Disks::default() };
     let near = Near::new(delaunay, bends, v, bend);
     let mut disks = Disks::default();
-    for (side, sign) in [(0, 1.0), (1, -1.0)] {
-        let far = far_curvature(delaunay, bends, v, &near, sign);
+    let far = far_curvatures(delaunay, bends, v, &near);
+    for (side, (sign, far)) in [1.0, -1.0].into_iter().zip(far).enumerate() {
         let mut curvature = near.curvature(sign).max(far);
         if near.is_sparse {
             curvature = shrunk(delaunay, bends, v, &near, sign, curvature);
@@ -179,30 +179,37 @@ impl<'a> Near<'a> {
     }
 }
 
-/// The largest curvature of a disk that touches at `v` and meets another part of the curve.
-fn far_curvature(
+/// On each side the largest curvature of a disk that touches at `v` and meets another part of the curve.
+fn far_curvatures(
     delaunay: &Delaunay,
     bends: &[Option<Bend>],
     v: u32,
     near: &Near<'_>,
-    sign: f64,
-) -> f64 {
-    let s = delaunay.point(v);
-    let normal = near.bend.normal().map(|x| sign * x);
-    let mut largest: f64 = 0.0;
-    for &q in delaunay.star(v).neighbors {
-        let d = sub(delaunay.point(q), s);
-        if near.samples[..2].contains(&Some(q)) || near.passes_over(bends[q as usize].as_ref(), d) {
+) -> [f64; 2] {
+    let (s, normal) = (delaunay.point(v), near.bend.normal());
+    let others = || {
+        let vertices = delaunay.star(v).neighbors.iter().copied();
+        vertices.filter(|q| !near.samples[..2].contains(&Some(*q))).filter_map(|q| {
+            let d = sub(delaunay.point(q), s);
+            let height = dot(normal, d);
+            let through = 2.0 * height.abs() / dot(d, d);
+            let counts = through > 0.0 && !near.passes_over(bends[q as usize].as_ref(), d);
+            counts.then_some((q, d, usize::from(height < 0.0), through))
+        })
+    };
+    let mut largest: [f64; 2] = [0.0; 2];
+    for (_, _, side, through) in others() {
+        largest[side] = largest[side].max(through);
+    }
+    for (q, d, side, through) in others().filter(|&(q, ..)| !near.samples.contains(&Some(q))) {
+        // Most neighbors are far beyond reach of the disk.
+        let Some(other) = bends[q as usize].as_ref().filter(|_| DENT * through > largest[side])
+        else {
             continue;
-        }
-        let through = 2.0 * dot(normal, d) / dot(d, d);
-        if through <= 0.0 {
-            continue;
-        }
-        largest = largest.max(through);
-        if let Some(other) = bends[q as usize].as_ref().filter(|_| !near.samples.contains(&Some(q)))
-        {
-            largest = largest.max(touching_both(normal, d, through, other).unwrap_or(0.0));
+        };
+        let normal = if side == 0 { normal } else { normal.map(|x| -x) };
+        if let Some(curvature) = touching_both(normal, d, through, other, largest[side]) {
+            largest[side] = curvature;
         }
     }
     largest
@@ -210,20 +217,25 @@ fn far_curvature(
 
 /// The curvature of the disk that touches at the origin and touches the circle of curvature at `d` from outside the curve.
 ///
-/// `through` is that of the disk through d itself; `None` if the second contact is not near d.
-fn touching_both(normal: Point, d: Point, through: f64, other: &Bend) -> Option<f64> {
-    let center = normal.map(|x| x / through);
-    let side = dot(other.normal(), sub(center, d)).signum();
+/// `through` is that of the disk through d itself; `None` if the second contact is not near d, or not above `least`.
+fn touching_both(normal: Point, d: Point, through: f64, other: &Bend, least: f64) -> Option<f64> {
+    let radius = 1.0 / through;
+    let from = [radius * normal[0] - d[0], radius * normal[1] - d[1]];
+    let side = dot(other.normal(), from).signum();
     let (facing, bend) = (other.normal().map(|x| side * x), side * other.curvature);
-    // |ρ n − o| = |1/κ − ρ| with o = d + facing/κ, solved for 1/ρ.
+    // |ρ n − o| = |1/κ − ρ| with o = d + facing/κ, solved for ρ.
     let numerator = 1.0 - dot(normal, facing) - bend * dot(normal, d);
     let denominator = -dot(d, facing) - bend * dot(d, d) / 2.0;
-    let curvature = numerator / denominator;
-    if !(denominator > 0.0 && curvature <= DENT * through) {
+    let within = least * denominator < numerator && numerator <= DENT * through * denominator;
+    if !(within && denominator > 0.0) {
         return None;
     }
-    let from = sub(normal.map(|x| x / curvature), d);
-    let offset = dot(other.tangent, from) / (1.0 - bend * dot(facing, from));
-    let within = -TRUST * other.reach[0] <= offset && offset <= TRUST * other.reach[1];
-    within.then_some(curvature)
+    let curvature = numerator / denominator;
+    let radius = 1.0 / curvature;
+    let from = [radius * normal[0] - d[0], radius * normal[1] - d[1]];
+    // Where the second contact is along the circle of curvature, times the distance to its center over its radius.
+    let (offset, scale) = (dot(other.tangent, from), 1.0 - bend * dot(facing, from));
+    let within =
+        -TRUST * other.reach[0] * scale <= offset && offset <= TRUST * other.reach[1] * scale;
+    (scale > 0.0 && within).then_some(curvature)
 }

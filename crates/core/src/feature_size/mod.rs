@@ -4,30 +4,28 @@
 //! axis. Here the axis is that of a smooth interpolant: for each sample the centers of the largest empty disks that touch the
 //! interpolant there, linked along the curve, and the centers of curvature where the curvature is largest, at the tips.
 
+mod axis;
 mod disks;
 mod interpolant;
-mod segments;
+mod segment;
 mod stencil;
+mod tree;
 
 use crate::adjacency::Adjacency;
 use crate::delaunay::Delaunay;
 use crate::edges::Edges;
 use crate::error::Result;
-use crate::point::{Point, dot, sub};
+use crate::point::Point;
 use crate::progress::Progress;
-use disks::{Disk, Disks, disks};
+use axis::axis;
 pub use interpolant::Bend;
 use interpolant::bends;
 use rayon::prelude::*;
-use segments::{Query, Segment, Tree};
 use stencil::{Scale, stencil};
+use tree::Tree;
 
-/// Centers farther apart than this part of the smaller radius are not linked: the axis may turn in between.
-const LINK: f64 = 1.0;
-/// Nor are those farther apart than this many times the samples that they belong to: rounding moved them.
-const LEAP: f64 = 32.0;
 /// Queries that one task takes at a time.
-const GRAIN: usize = 1 << 10;
+const GRAIN: usize = 1 << 12;
 
 /// The smooth interpolant of edges, its medial axis, and the local feature size at the vertices.
 #[derive(Debug)]
@@ -49,14 +47,9 @@ impl FeatureSize {
         let scale = Scale::of(delaunay.points());
         let bends = bends(delaunay, &*stencil(delaunay, &curve, &scale, progress)?, &scale);
         progress.advance(0)?;
-        let vertices = 0..delaunay.points().len() as u32;
-        let disks: Vec<Disks> =
-            vertices.clone().into_par_iter().map(|v| disks(delaunay, &bends, v)).collect();
-        progress.advance(0)?;
-        let axis: Vec<Segment> =
-            vertices.into_par_iter().flat_map_iter(|v| segments(&bends, &disks, v)).collect();
-        progress.advance(0)?;
+        let axis = axis(delaunay, &bends, progress)?;
         let tree = Tree::new(&axis, scale.bounds);
+        progress.advance(0)?;
         let nearest = nearest(&tree, delaunay.points(), progress)?;
         Ok(Self { curve, bends, tree, nearest })
     }
@@ -101,63 +94,9 @@ impl FeatureSize {
 /// For each place the nearest segment and the distance, infinite if there is none.
 fn nearest(tree: &Tree, places: &[Point], progress: &Progress) -> Result<Vec<(u32, f64)>> {
     let part = |places: &[Point]| {
-        let mut query = Query::default();
-        let found: Vec<_> = places.iter().map(|&place| tree.nearest(place, &mut query)).collect();
+        let found = tree.nearest(places);
         progress.advance(0)?;
         Ok(found)
     };
     Ok(places.par_chunks(GRAIN).map(part).collect::<Result<Vec<_>>>()?.concat())
-}
-
-/// The segments of the axis that vertex `v` answers for: to its tip, and to the centers of later adjacent vertices.
-///
-/// A center that nothing is linked with is a segment of its own.
-fn segments(bends: &[Option<Bend>], disks: &[Disks], v: u32) -> impl Iterator<Item = Segment> {
-    // A tip, and on each side two links or a center.
-    let mut segments = [None; 5];
-    if let Some(bend) = &bends[v as usize] {
-        let here = &disks[v as usize];
-        segments[4] = here.tip.map(|(side, tip)| {
-            let linked = here.sides[side].and_then(|disk| link(disk, tip, bend.longest()));
-            linked.unwrap_or_else(|| alone(tip))
-        });
-        for side in 0..2 {
-            let links = [0, 1].map(|end| next_link(bends, disks, v, (side, end)));
-            for end in 0..2 {
-                segments[2 * side + end] = links[end].filter(|_| bend.adjacent[end] > Some(v));
-            }
-            if links == [None; 2] {
-                segments[2 * side] = here.sides[side].map(alone);
-            }
-        }
-    }
-    segments.into_iter().flatten()
-}
-
-/// The link on a side of `v` to the center of the adjacent vertex at one end.
-fn next_link(
-    bends: &[Option<Bend>],
-    disks: &[Disks],
-    v: u32,
-    (side, end): (usize, usize),
-) -> Option<Segment> {
-    let bend = bends[v as usize].as_ref()?;
-    let next = bend.adjacent[end]?;
-    let other = bends[next as usize].as_ref()?;
-    let agrees = bend.direction(next) == -other.direction(v);
-    let beyond = disks[next as usize].sides[if agrees { side } else { 1 - side }]?;
-    link(disks[v as usize].sides[side]?, beyond, bend.reach[end])
-}
-
-/// A center by itself.
-fn alone(disk: Disk) -> Segment {
-    Segment { ends: [disk.center; 2], radius: disk.radius }
-}
-
-/// The segment between two centers whose disks overlap well, of samples `reach` apart.
-fn link(a: Disk, b: Disk, reach: f64) -> Option<Segment> {
-    let step = sub(b.center, a.center);
-    let radius = a.radius.min(b.radius);
-    (dot(step, step) <= (LINK * radius).min(LEAP * reach).powi(2))
-        .then_some(Segment { ends: [a.center, b.center], radius })
 }

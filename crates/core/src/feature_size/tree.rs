@@ -1,0 +1,226 @@
+//! Segments in a tree of boxes, to find the nearest.
+//!
+//! The packed tree of I. Kamel and C. Faloutsos, "On Packing R-trees" (1993): segments sorted along a Hilbert curve, each box
+//! over `FAN` successive ones. Built in linear time after the sort.
+
+use super::segment::{Segment, push};
+use crate::point::Point;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Children of a node.
+const FAN: usize = 8;
+/// Places that go down the tree together.
+const RUN: usize = 64;
+/// The level down to which they do; there boxes are about as large as the runs.
+const MIDDLE: usize = 2;
+/// A box is not opened for a gain smaller than this part of the squared distance.
+const GAIN: f64 = 1e-3;
+/// Segments that one task joins at a time.
+const GRAIN: usize = 1 << 14;
+
+/// A box: least x and y, then largest.
+pub type Bounds = [f64; 4];
+
+const EMPTY: Bounds = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+
+fn join(a: Bounds, b: Bounds) -> Bounds {
+    [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]
+}
+
+#[inline]
+fn square_to(bounds: &Bounds, p: Point) -> f64 {
+    let gap = |low: f64, high: f64, x: f64| (low - x).max(x - high).max(0.0);
+    let (x, y) = (gap(bounds[0], bounds[2], p[0]), gap(bounds[1], bounds[3], p[1]));
+    x * x + y * y
+}
+
+/// Segments, searchable.
+#[derive(Debug, Default)]
+pub struct Tree {
+    segments: Vec<Segment>,
+    /// The boxes over segments, over those boxes, and so on up to one.
+    levels: Vec<Vec<Bounds>>,
+}
+
+impl Tree {
+    /// A tree of `segments`. Queries are within `bounds`.
+    pub fn new(segments: &[Segment], bounds: Bounds) -> Self {
+        let segments = joined(segments, &order(segments, bounds));
+        let mut levels = Vec::new();
+        let mut boxes: Vec<Bounds> = segments.par_chunks(FAN).map(bounds_of).collect();
+        while boxes.len() > 1 {
+            let above =
+                boxes.par_chunks(FAN).map(|part| part.iter().copied().fold(EMPTY, join)).collect();
+            levels.push(std::mem::replace(&mut boxes, above));
+        }
+        levels.push(boxes);
+        Self { segments, levels }
+    }
+
+    /// The distance from `p` to a segment, infinite if there is none.
+    pub fn distance_to(&self, segment: u32, p: Point) -> f64 {
+        self.segments
+            .get(segment as usize)
+            .map_or(f64::INFINITY, |segment| segment.square(p).sqrt())
+    }
+
+    /// For each place the nearest segment and the distance, infinite if there is none.
+    ///
+    /// Places that follow each other should be near each other: a run of them goes down to boxes of about its size together,
+    /// and each starts with the answer of the one before it.
+    pub fn nearest(&self, places: &[Point]) -> Vec<(u32, f64)> {
+        if self.segments.is_empty() {
+            return vec![(0, f64::INFINITY); places.len()];
+        }
+        let mut found = Vec::with_capacity(places.len());
+        let mut search = Search { tree: self, stack: Vec::new(), last: 0 };
+        for run in places.chunks(RUN) {
+            let (level, boxes) = self.boxes_near(run);
+            found.extend(run.iter().map(|&place| search.nearest(place, level, &boxes)));
+        }
+        found
+    }
+
+    /// The boxes of a middle level that may hold the segment nearest to one of the places.
+    fn boxes_near(&self, places: &[Point]) -> (usize, Vec<u32>) {
+        let around = places.iter().fold(EMPTY, |bounds, &[x, y]| join(bounds, [x, y, x, y]));
+        let (mut level, mut near) = (self.levels.len() - 1, vec![0]);
+        while level > MIDDLE {
+            level -= 1;
+            let boxes = &self.levels[level];
+            let children = || near.iter().flat_map(|&node| self.children(level, node));
+            let farthest = children().map(|k| most_between(&boxes[k as usize], &around));
+            let most = farthest.fold(f64::INFINITY, f64::min);
+            near = children()
+                .filter(|&k| least_between(&boxes[k as usize], &around) <= most)
+                .collect();
+        }
+        (level, near)
+    }
+
+    /// The boxes of a level under a box of the level above.
+    fn children(&self, level: usize, node: u32) -> Range<u32> {
+        let first = FAN as u32 * node;
+        first..(first + FAN as u32).min(self.levels[level].len() as u32)
+    }
+}
+
+/// A box on the way down, and its squared distance.
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    square: f64,
+    level: usize,
+    number: u32,
+}
+
+/// A run of searches.
+struct Search<'a> {
+    tree: &'a Tree,
+    stack: Vec<Node>,
+    /// The last answer: the first guess of the next.
+    last: usize,
+}
+
+impl Search<'_> {
+    /// The segment nearest to `p`, which is in one of the boxes of a level, and its distance.
+    fn nearest(&mut self, p: Point, level: usize, boxes: &[u32]) -> (u32, f64) {
+        let mut best = self.tree.segments[self.last].square(p);
+        self.stack.clear();
+        self.push(p, best, level, boxes.iter().copied());
+        while let Some(node) = self.stack.pop() {
+            if node.square >= best * (1.0 - GAIN) {
+                continue;
+            }
+            if node.level > 0 {
+                let children = self.tree.children(node.level - 1, node.number);
+                self.push(p, best, node.level - 1, children);
+                continue;
+            }
+            let first = FAN * node.number as usize;
+            let end = (first + FAN).min(self.tree.segments.len());
+            for (k, segment) in self.tree.segments[first..end].iter().enumerate() {
+                let square = segment.square(p);
+                if square < best {
+                    (best, self.last) = (square, first + k);
+                }
+            }
+        }
+        (self.last as u32, best.sqrt())
+    }
+
+    /// Push boxes that are near enough, the nearest last.
+    fn push(&mut self, p: Point, best: f64, level: usize, boxes: impl Iterator<Item = u32>) {
+        let start = self.stack.len();
+        for number in boxes {
+            let square = square_to(&self.tree.levels[level][number as usize], p);
+            if square < best * (1.0 - GAIN) {
+                self.stack.push(Node { square, level, number });
+            }
+        }
+        if self.stack.len() > start + 1 {
+            self.stack[start..].sort_unstable_by(|a, b| b.square.total_cmp(&a.square));
+        }
+    }
+}
+
+/// The least squared distance between a place in one box and a place in the other.
+fn least_between(a: &Bounds, b: &Bounds) -> f64 {
+    let gap = |k: usize| (a[k] - b[k + 2]).max(b[k] - a[k + 2]).max(0.0);
+    gap(0).powi(2) + gap(1).powi(2)
+}
+
+/// The largest squared distance between a place in one box and a place in the other.
+fn most_between(a: &Bounds, b: &Bounds) -> f64 {
+    let span = |k: usize| (a[k + 2] - b[k]).max(b[k + 2] - a[k]);
+    span(0).powi(2) + span(1).powi(2)
+}
+
+fn bounds_of(segments: &[Segment]) -> Bounds {
+    let ends = segments.iter().flat_map(|segment| segment.ends);
+    ends.fold(EMPTY, |bounds, [x, y]| join(bounds, [x, y, x, y]))
+}
+
+/// The numbers of the segments along a Hilbert curve, which leaves no gaps as a Z-order curve does: its boxes overlap half as often.
+///
+/// Its cells cover twice the extent of the queries: some centers are so far away that they would leave no cells for the rest.
+fn order(segments: &[Segment], [left, bottom, right, top]: Bounds) -> Vec<u32> {
+    let extent = (right - left).max(top - bottom);
+    let (x, y, cells) =
+        (left - extent / 2.0, bottom - extent / 2.0, f64::from(u16::MAX) / (2.0 * extent));
+    // The conversion saturates, so what is farther away is in the outermost cells.
+    let code = |[px, py]: Point| hilbert(((px - x) * cells) as u16, ((py - y) * cells) as u16);
+    let numbered = segments.par_iter().enumerate();
+    let mut keys: Vec<u64> =
+        numbered.map(|(k, segment)| code(segment.middle()) << 32 | k as u64).collect();
+    keys.par_sort_unstable();
+    keys.into_par_iter().map(|key| key as u32).collect()
+}
+
+/// The place of cell (x, y) along the Hilbert curve.
+fn hilbert(x: u16, y: u16) -> u64 {
+    let (mut x, mut y, mut place) = (u32::from(x), u32::from(y), 0);
+    for bit in (0..u16::BITS).rev() {
+        let (right, top) = (x >> bit & 1, y >> bit & 1);
+        place = place << 2 | ((3 * right) ^ top);
+        // In the lower quarters the curve runs mirrored; masks, as half of all branches would be mispredicted.
+        let lower = top.wrapping_sub(1);
+        let turned = lower & 0u32.wrapping_sub(right);
+        (x, y) = (x ^ turned, y ^ turned);
+        let swap = (x ^ y) & lower;
+        (x, y) = (x ^ swap, y ^ swap);
+    }
+    u64::from(place)
+}
+
+/// The segments in `order`, joined where the next is in line with one of the last.
+fn joined(segments: &[Segment], order: &[u32]) -> Vec<Segment> {
+    let part = |order: &[u32]| {
+        let mut kept = Vec::with_capacity(order.len());
+        for &k in order {
+            push(&mut kept, segments[k as usize], |_, _| true);
+        }
+        kept
+    };
+    order.par_chunks(GRAIN).map(part).collect::<Vec<_>>().concat()
+}
