@@ -225,7 +225,7 @@ const GRAIN: usize = 1 << 13;
 struct Part {
     found: Vec<Found>,
     /// Where those of each vertex end.
-    ends: Vec<usize>,
+    ends: Vec<u32>,
 }
 
 impl Part {
@@ -235,7 +235,7 @@ impl Part {
             let start = part.found.len();
             part.extend((first + k) as u32, mesh, inner, centers);
             part.found[start..].sort_unstable_by_key(|&(samples, _, _)| samples);
-            part.ends.push(part.found.len());
+            part.ends.push(part.found.len() as u32);
         }
         part
     }
@@ -262,7 +262,7 @@ impl Part {
     /// The edges of its vertex number `k`.
     fn of(&self, k: usize) -> &[Found] {
         let start = if k > 0 { self.ends[k - 1] } else { 0 };
-        &self.found[start..self.ends[k]]
+        &self.found[start as usize..self.ends[k] as usize]
     }
 }
 

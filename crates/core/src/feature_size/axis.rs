@@ -67,7 +67,7 @@ impl<'a> Part<'a> {
             let Some(bend) = &self.bends[v as usize] else { continue };
             if let Some((side, tip)) = here.tip {
                 let linked = here.sides[side].and_then(|disk| link(disk, tip, bend.longest()));
-                push(segments, linked.unwrap_or_else(|| alone(tip)), Segment::meets);
+                push(segments, linked.unwrap_or_else(|| alone(tip)), Segment::continued);
             }
             for side in 0..2 {
                 self.collect_side(v, bend, side, segments);
@@ -82,11 +82,11 @@ impl<'a> Part<'a> {
         let is_later = |end: &usize| bend.adjacent[*end] > Some(v);
         let mut is_alone = true;
         for link in [0, 1].iter().filter(|end| is_later(end)).filter_map(link) {
-            push(segments, link, Segment::meets);
+            push(segments, link, Segment::continued);
             is_alone = false;
         }
         if is_alone && ![0, 1].iter().filter(|end| !is_later(end)).any(|end| link(end).is_some()) {
-            push(segments, alone(disk), Segment::meets);
+            push(segments, alone(disk), Segment::continued);
         }
     }
 

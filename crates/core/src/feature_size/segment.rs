@@ -27,18 +27,6 @@ impl Segment {
         Self { ends, radius, slack: 0.0 }
     }
 
-    /// The squared distance from `p`.
-    #[inline]
-    #[must_use]
-    pub fn square(&self, p: Point) -> f64 {
-        let [a, b] = self.ends;
-        let (along, from) = (sub(b, a), sub(p, a));
-        let length = dot(along, along);
-        let t = if length > 0.0 { (dot(from, along) / length).clamp(0.0, 1.0) } else { 0.0 };
-        let off = [from[0] - t * along[0], from[1] - t * along[1]];
-        dot(off, off)
-    }
-
     /// The point halfway between the ends.
     #[must_use]
     pub fn middle(&self) -> Point {
@@ -46,28 +34,42 @@ impl Segment {
         [f64::midpoint(a[0], b[0]), f64::midpoint(a[1], b[1])]
     }
 
-    /// Do the two have an end in common?
+    /// The one segment that stands for both, if they have an end in common and are in line.
     #[must_use]
-    pub fn meets(&self, other: &Self) -> bool {
-        self.ends.iter().any(|end| other.ends.contains(end))
+    pub fn continued(&self, other: &Self) -> Option<Self> {
+        let shared = self.ends.iter().position(|end| other.ends.contains(end))?;
+        let common = self.ends[shared];
+        let ends = [self.ends[1 - shared], other.ends[usize::from(other.ends[0] == common)]];
+        let (to, on) = (sub(common, ends[0]), sub(ends[1], common));
+        if dot(to, on) < 0.0 {
+            return None;
+        }
+        self.replaced(other, ends)
     }
 
     /// The one segment that stands for both, if they are in line and leave no gap.
-    fn joined(&self, other: &Self) -> Option<Self> {
-        let radius = self.radius.min(other.radius);
-        let tolerance = FLAT * radius;
+    #[must_use]
+    pub fn joined(&self, other: &Self) -> Option<Self> {
         let (ends, gap) = self.span(other);
-        let [p, q] = ends;
-        let along = sub(q, p);
-        let square = dot(along, along);
-        if square > (LONG * radius).powi(2) || gap > tolerance {
+        if gap > FLAT * self.radius.min(other.radius) {
             return None;
         }
-        let off = |end: &Point| cross(along, sub(*end, p)).abs();
+        self.replaced(other, ends)
+    }
+
+    /// The segment between `ends` in place of both, if it is short and near enough to stand for them.
+    fn replaced(&self, other: &Self, ends: [Point; 2]) -> Option<Self> {
+        let radius = self.radius.min(other.radius);
+        let along = sub(ends[1], ends[0]);
+        let square = dot(along, along);
+        if square > (LONG * radius).powi(2) {
+            return None;
+        }
+        let off = |end: &Point| cross(along, sub(*end, ends[0])).abs();
         let farthest = self.ends.iter().chain(&other.ends).map(off).fold(0.0, f64::max);
         let farthest = if square > 0.0 { farthest / square.sqrt() } else { 0.0 };
         let slack = farthest + self.slack.max(other.slack);
-        (slack <= tolerance).then_some(Self { ends, radius, slack })
+        (slack <= FLAT * radius).then_some(Self { ends, radius, slack })
     }
 
     /// The ends, of both segments, that are farthest apart along them, and the length that neither covers.
@@ -93,16 +95,16 @@ impl Segment {
     }
 }
 
-/// Append `next`, or lengthen one of the last segments that `may_join` by it.
+/// Append `next`, or `lengthen` one of the last segments by it.
 pub fn push(
     segments: &mut Vec<Segment>,
     next: Segment,
-    may_join: impl Fn(&Segment, &Segment) -> bool,
+    lengthen: impl Fn(&Segment, &Segment) -> Option<Segment>,
 ) {
     let open = segments.len().saturating_sub(OPEN);
-    for last in segments[open..].iter_mut().rev().filter(|last| may_join(last, &next)) {
-        if let Some(joined) = last.joined(&next) {
-            *last = joined;
+    for last in segments[open..].iter_mut().rev() {
+        if let Some(longer) = lengthen(last, &next) {
+            *last = longer;
             return;
         }
     }

@@ -4,7 +4,7 @@
 //! over `FAN` successive ones. Built in linear time after the sort.
 
 use super::segment::{Segment, push};
-use crate::point::Point;
+use crate::point::{Point, dot, sub};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -35,10 +35,37 @@ fn square_to(bounds: &Bounds, p: Point) -> f64 {
     x * x + y * y
 }
 
+/// A segment, made ready for distances.
+#[derive(Debug, Clone, Copy)]
+struct Line {
+    start: Point,
+    along: Point,
+    /// One over the square of the length; 0 if that vanishes.
+    inverse: f64,
+}
+
+impl Line {
+    fn new(segment: &Segment) -> Self {
+        let [start, end] = segment.ends;
+        let along = sub(end, start);
+        let square = dot(along, along);
+        Self { start, along, inverse: if square.is_normal() { 1.0 / square } else { 0.0 } }
+    }
+
+    /// The squared distance from `p`.
+    #[inline]
+    fn square(&self, p: Point) -> f64 {
+        let (along, from) = (self.along, sub(p, self.start));
+        let t = (dot(from, along) * self.inverse).clamp(0.0, 1.0);
+        let off = [from[0] - t * along[0], from[1] - t * along[1]];
+        dot(off, off)
+    }
+}
+
 /// Segments, searchable.
 #[derive(Debug, Default)]
 pub struct Tree {
-    segments: Vec<Segment>,
+    lines: Vec<Line>,
     /// The boxes over segments, over those boxes, and so on up to one.
     levels: Vec<Vec<Bounds>>,
 }
@@ -55,14 +82,12 @@ impl Tree {
             levels.push(std::mem::replace(&mut boxes, above));
         }
         levels.push(boxes);
-        Self { segments, levels }
+        Self { lines: segments.par_iter().map(Line::new).collect(), levels }
     }
 
     /// The distance from `p` to a segment, infinite if there is none.
     pub fn distance_to(&self, segment: u32, p: Point) -> f64 {
-        self.segments
-            .get(segment as usize)
-            .map_or(f64::INFINITY, |segment| segment.square(p).sqrt())
+        self.lines.get(segment as usize).map_or(f64::INFINITY, |line| line.square(p).sqrt())
     }
 
     /// For each place the nearest segment and the distance, infinite if there is none.
@@ -70,7 +95,7 @@ impl Tree {
     /// Places that follow each other should be near each other: a run of them goes down to boxes of about its size together,
     /// and each starts with the answer of the one before it.
     pub fn nearest(&self, places: &[Point]) -> Vec<(u32, f64)> {
-        if self.segments.is_empty() {
+        if self.lines.is_empty() {
             return vec![(0, f64::INFINITY); places.len()];
         }
         let mut found = Vec::with_capacity(places.len());
@@ -125,7 +150,7 @@ struct Search<'a> {
 impl Search<'_> {
     /// The segment nearest to `p`, which is in one of the boxes of a level, and its distance.
     fn nearest(&mut self, p: Point, level: usize, boxes: &[u32]) -> (u32, f64) {
-        let mut best = self.tree.segments[self.last].square(p);
+        let mut best = self.tree.lines[self.last].square(p);
         self.stack.clear();
         self.push(p, best, level, boxes.iter().copied());
         while let Some(node) = self.stack.pop() {
@@ -138,9 +163,9 @@ impl Search<'_> {
                 continue;
             }
             let first = FAN * node.number as usize;
-            let end = (first + FAN).min(self.tree.segments.len());
-            for (k, segment) in self.tree.segments[first..end].iter().enumerate() {
-                let square = segment.square(p);
+            let end = (first + FAN).min(self.tree.lines.len());
+            for (k, line) in self.tree.lines[first..end].iter().enumerate() {
+                let square = line.square(p);
                 if square < best {
                     (best, self.last) = (square, first + k);
                 }
@@ -218,7 +243,7 @@ fn joined(segments: &[Segment], order: &[u32]) -> Vec<Segment> {
     let part = |order: &[u32]| {
         let mut kept = Vec::with_capacity(order.len());
         for &k in order {
-            push(&mut kept, segments[k as usize], |_, _| true);
+            push(&mut kept, segments[k as usize], Segment::joined);
         }
         kept
     };

@@ -49,7 +49,7 @@ pub fn beta_skeleton(
     }
     let bound = AngleBound::of_beta(beta);
     let sum = beta.partial_cmp(&1.0).unwrap_or(Equal);
-    gamma_of(delaunay, &[bound.clone(), bound], sum, progress)
+    gamma_of(delaunay, [&bound; 2], sum, progress)
 }
 
 /// The edges with an empty lune, for `beta` > 1.

@@ -29,13 +29,13 @@ pub fn gamma_graph(delaunay: &Delaunay, c: [f64; 2], progress: &Progress) -> Res
         let message = format!("c{k} must be a number from -1 to 1, not {}", c[k]);
         return Err(Error::Argument { message });
     }
-    let bounds = c.map(AngleBound::of_gamma);
+    let [a, b] = c.map(AngleBound::of_gamma);
     // The cotangent grows with c and is odd, so the sums have the same sign.
     let sum = (c[0] + c[1]).partial_cmp(&0.0).unwrap_or(Equal);
-    gamma_of(delaunay, &bounds, sum, progress)
+    gamma_of(delaunay, [&a, &b], sum, progress)
 }
 
-/// The edges for which one bound holds on one side and the other on the other.
+/// The edges for which one bound holds on one side and the other, or the same, on the other.
 ///
 /// `sum` is the sign of the sum of the cotangents. If it is not negative some disk lies in every
 /// neighborhood, so the edges are Delaunay edges, and the apexes see them under the largest angles.
@@ -43,11 +43,14 @@ pub fn gamma_graph(delaunay: &Delaunay, c: [f64; 2], progress: &Progress) -> Res
 /// candidates; see [`Pairs`].
 pub(super) fn gamma_of(
     delaunay: &Delaunay,
-    [a, b]: &[AngleBound; 2],
+    [a, b]: [&AngleBound; 2],
     sum: Ordering,
     progress: &Progress,
 ) -> Result<Edges> {
-    let keep = |edge| has_angles(delaunay, edge, a, b) || has_angles(delaunay, edge, b, a);
+    let is_symmetric = std::ptr::eq(a, b);
+    let keep = |edge| {
+        has_angles(delaunay, edge, a, b) || !is_symmetric && has_angles(delaunay, edge, b, a)
+    };
     match sum {
         Greater => select(delaunay, progress, || (), |(), edge| keep(edge)),
         Equal => select_closed(delaunay, progress, keep),
