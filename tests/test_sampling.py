@@ -176,7 +176,42 @@ def test_a_thousand_samples_are_quick() -> None:
     assert time.perf_counter() - start < 3
 
 
-@pytest.mark.parametrize("r", [0.0, -1.0, 1.01, float("nan")])
+def test_an_ellipse_of_aspect_ratio_1e9_is_refused_at_once() -> None:
+    """It needs thousands of millions of samples, and as many arcs to measure its ratio."""
+    needle = shapes.ellipse(1e9, 1)
+    with pytest.raises(InputError, match="needs more than 1,000,000 samples"):
+        r_sample(needle, 0.25)
+    with pytest.raises(InputError, match="times as long as its local feature size"):
+        sampling_ratio(needle, needle.point([0, 0.25, 0.5]))
+
+
+def test_a_longish_ellipse_is_sampled() -> None:
+    sample = r_sample(shapes.ellipse(1000, 1), 1.0)
+    assert 0.9 < len(sample) / (np.pi * 1000) < 1.1
+
+
+@pytest.mark.parametrize("tolerance", [None, 1e-2])
+def test_splines_through_thinned_samples_can_be_sampled(tolerance: float | None) -> None:
+    """Many pieces, or few with handles so short that the curvature jumps and falls at once."""
+    pytest.importorskip("scipy")
+    from crustline import crust, smooth
+
+    sample = r_sample(shapes.trefoil(3, 0.3), 0.01, seed=1)
+    points = sample.points[thin(sample.points, sample.edges, 0.02)]
+    (pieces,) = smooth(points, crust(points)).beziers(tolerance)
+    curve = SmoothCurve((shapes.Loop(shapes._bezier(pieces), len(pieces)),))
+    again = r_sample(curve, 0.2)
+    assert dense_ratio(curve, again.points) <= 0.2
+    assert len(again) < 120
+
+
+@pytest.mark.parametrize("seed", [-1, 1.5, "a"])
+def test_bad_seeds_are_named(seed: object) -> None:
+    with pytest.raises(InputError, match="seed must be a whole number of at least 0, not"):
+        r_sample(shapes.circle(), 0.5, seed=seed)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("r", [0.0, -1.0, 1.01, float("nan"), float("inf"), "0.2", True])
 def test_r_outside_the_papers_range_is_refused(r: float) -> None:
     with pytest.raises(InputError, match="r must be in"):
         r_sample(shapes.circle(), r)
@@ -187,8 +222,12 @@ def test_other_bad_input_is_named() -> None:
         r_sample(shapes.circle(), 0.5, mode="dense")  # type: ignore[arg-type]
     with pytest.raises(InputError, match="points is empty"):
         sampling_ratio(shapes.circle(), np.empty((0, 2)))
-    with pytest.raises(InputError, match="d must be positive"):
-        sample_for_error(shapes.circle(), 0.0)
+    for d in (0.0, float("inf"), float("nan"), "1"):
+        with pytest.raises(InputError, match="d must be positive"):
+            sample_for_error(shapes.circle(), d)  # type: ignore[arg-type]
+    for rtol in (0.0, 1.0, float("nan")):
+        with pytest.raises(InputError, match="rtol must be in"):
+            sampling_ratio(shapes.circle(), [(1, 0)], rtol=rtol)
 
 
 # Thinning. The samples are dense, so what is known of the curve is nearly true of its
@@ -256,6 +295,45 @@ def test_strides_over_very_dense_samples_are_the_longest_steps(
         assert sampling_ratio(curve, points[strides]) <= 0.2 * 1.001
     else:
         assert np.array_equal(strides, every)
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_surely_served_edges_are_served(closed: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Thinning begins at a bound; from nothing it comes to the same, edge by edge."""
+
+    def none(edges: FloatArray, *_: object) -> npt.NDArray[np.int64]:
+        return np.zeros(len(edges), dtype=np.int64)
+
+    rng = np.random.default_rng(2)
+    for n, r in ((5, 1.0), (60, 0.5), (700, 0.3), (2000, 0.2)):
+        t = np.sort(rng.random(n))
+        points = shapes.blob(n).point(t)
+        lfs = local_feature_size(shapes.blob(n), t)
+        begun = sampling._served_edges(points, lfs, r, closed)
+        with monkeypatch.context() as patch:
+            patch.setattr(sampling, "_surely_served", none)
+            afresh = sampling._served_edges(points, lfs, r, closed)
+        assert begun is not None
+        assert afresh is not None
+        assert np.allclose(begun, afresh, rtol=1e-12)
+
+
+def test_thinning_very_dense_samples_looks_at_few_of_their_edges(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    looked = []
+    served_part = sampling._served_part
+
+    def counted(*arguments: FloatArray) -> FloatArray:
+        looked.append(len(arguments[-1]))
+        return served_part(*arguments)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(sampling, "_served_part", counted)
+    n = 60_000
+    points = shapes.trefoil(3, 0.3).point(np.arange(n) / n)
+    edges = np.stack([np.arange(n), (np.arange(n) + 1) % n], -1)
+    assert len(thin(points, edges, 0.2)) < 60
+    assert sum(looked) < 20 * n
 
 
 def _fewest(points: FloatArray, lfs: FloatArray, r: float) -> int:

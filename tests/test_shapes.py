@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 import pytest
 
-from crustline import shapes
-from crustline.errors import InputError
+from crustline import feature_size, shapes
+from crustline.errors import FormatError, InputError
 from crustline.feature_size import local_feature_size, medial_axis_of_curve, nearest_site
 from crustline.shapes import Loop, SmoothCurve
 
@@ -161,6 +162,69 @@ def test_local_feature_size_scales_and_turns_with_the_curve() -> None:
     )
 
 
+def test_local_feature_size_is_the_same_far_from_the_origin() -> None:
+    """Cartographic offsets: rounding of coordinates is not taken for contacts of tight disks."""
+    curve, t = shapes.blob(1), places(shapes.circle(), 200)
+    far = curve.moved(offset=(6_000_000, -5_000_000))
+    assert np.allclose(local_feature_size(far, t), local_feature_size(curve, t), rtol=1e-3)
+
+
+def test_pieces_that_are_small_beside_the_features_need_few_nodes(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    pytest.importorskip("scipy")
+    points = shapes.trefoil(3, 0.4).point(np.arange(150) / 150)
+    few, all_ = shapes.spline(points), shapes.spline(points)
+    t = places(few, 300)
+    sizes = local_feature_size(few, t)
+    count = len(feature_size._first_nodes(few))
+    monkeypatch.setattr(feature_size, "NODE_TURN", 1e-9)
+    assert 4 * count < len(feature_size._first_nodes(all_)) == 24 * 150
+    assert np.allclose(sizes, local_feature_size(all_, t), rtol=1e-5)
+
+
+def test_first_nodes_of_many_pieces_hold_jumps_and_extremes_of_the_curvature() -> None:
+    """A rounded square of twelve pieces, each of whose joints the axis ends at or runs past."""
+    handle = 0.2 * 4 / 3 * (np.sqrt(2) - 1)
+    corner = np.array([[1, 0.8], [1, 0.8 + handle], [0.8 + handle, 1], [0.8, 1]])
+    side = np.linspace([0.8, 1], [-0.8, 1], 7)[[0, 1, 2, 3, 3, 4, 5, 6]].reshape(2, 4, 2)
+    quarter = np.concatenate([corner[None], side])
+    turned = [quarter]
+    for _ in range(3):
+        turned.append(np.stack([-turned[-1][..., 1], turned[-1][..., 0]], -1))
+    pieces = np.concatenate(turned)
+    loop = SmoothCurve((Loop(shapes._bezier(pieces), len(pieces)),))
+    joints = np.delete(np.arange(12), [2, 5, 8, 11]) / 12  # but those amid the straight sides
+    assert np.isin(joints, feature_size._first_nodes(loop)).all()
+    assert local_feature_size(loop, 0.5 / 12) == pytest.approx(0.2, rel=2e-2)
+    assert local_feature_size(loop, 2 / 12) == pytest.approx(np.sqrt(0.5), rel=1e-3)
+
+
+def test_the_axis_is_computed_once_whatever_way_the_tolerance_is_given() -> None:
+    curve = shapes.blob(21)
+    assert medial_axis_of_curve(curve) is medial_axis_of_curve(curve, rtol=1e-4)
+
+
+@pytest.mark.parametrize("size", [1e-60, 1e60])
+def test_the_extreme_sizes_that_are_admitted_work(size: float) -> None:
+    """Every square, cube and quotient stays within float64: sizes only scale the answer."""
+    makers: list[Callable[[float], SmoothCurve]] = [
+        shapes.circle,
+        lambda x: shapes.ellipse(x, x / 2 if x > 1 else 2 * x),
+        lambda x: shapes.stadium(x, x),
+        lambda x: shapes.trefoil(3, 0.3, x),
+        lambda x: shapes.blob(1, radius=x),
+        lambda x: shapes.superformula(4, 2, 2, 2, a=x, b=x / 2 if x > 1 else 2 * x),
+        lambda x: shapes.fourier([0, x, 0.1 * x]),
+        lambda x: shapes.circle().moved(scale=x),
+    ]
+    for make in makers:
+        curve = make(size)
+        lfs = local_feature_size(curve, places(curve, 20)) / size
+        assert np.all((lfs > 0.05) & (lfs < 3))
+        assert np.all(np.isfinite(curve.curvature(places(curve, 20)) * size))
+
+
 def test_local_feature_size_keeps_the_shape_of_t() -> None:
     assert local_feature_size(shapes.circle(), np.zeros((2, 3))).shape == (2, 3)
     assert float(local_feature_size(shapes.circle(), 0.25)) == pytest.approx(1.0)
@@ -222,6 +286,61 @@ def test_bezier_path_from_file_and_string(tmp_path: Path) -> None:
     assert np.allclose(np.hypot(*(curve.components[1].point(u) - [0, 9]).T), 2, rtol=1e-3)
 
 
+LOOP = "M 0 0 C 0 1.5 2 1.5 2 0 C 2 -1.5 0 -1.5 0 0 Z"
+
+
+@pytest.mark.parametrize(
+    "head",
+    [
+        "",
+        'viewBox="0 0 10 10"',
+        'viewBox="0 0 10 10" width="800" height="600"',
+        'viewBox="-3,-2,17.3,7.9" width="210mm" height="100%"',
+        'viewBox="5 5 1 2" preserveAspectRatio="none" width="800" height="800"',
+    ],
+)
+def test_bezier_path_of_a_file_is_in_the_coordinates_of_its_view_box(
+    tmp_path: Path, head: str
+) -> None:
+    pytest.importorskip("svgelements")
+    file = tmp_path / "loop.svg"
+    file.write_text(
+        f'<?xml version="1.0"?><svg xmlns="http://www.w3.org/2000/svg" {head}>'
+        f'<g transform="scale(1 -1)"><path d="{LOOP}"/></g></svg>'
+    )
+    u = places(shapes.circle(), 11)
+    truth = shapes.bezier_path(LOOP).point(u) * [1, -1]
+    assert np.array_equal(shapes.bezier_path(file).point(u), truth)
+
+
+def test_bezier_path_takes_percentages_of_the_view_box(tmp_path: Path) -> None:
+    pytest.importorskip("svgelements")
+    file = tmp_path / "circle.svg"
+    file.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 40 20" width="900" height="900">'
+        '<circle cx="50%" cy="50%" r="3"/></svg>'
+    )
+    p = shapes.bezier_path(file).point(places(shapes.circle(), 50))
+    assert np.allclose(np.hypot(*(p - [20, 10]).T), 3, rtol=1e-3)
+
+
+def test_what_is_no_svg_and_no_path_is_named(tmp_path: Path) -> None:
+    pytest.importorskip("svgelements")
+    cut, page = tmp_path / "cut.svg", tmp_path / "page.svg"
+    cut.write_text("<svg>")
+    page.write_text("<html/>")
+    for file, words in ((cut, "is no SVG"), (page, "outermost element is 'html'")):
+        with pytest.raises(FormatError, match=words):
+            shapes.bezier_path(file)
+    with pytest.raises(FormatError, match="no such file"):
+        shapes.bezier_path(tmp_path / "none.svg")
+    for text in ("hello", "M 0 0 C 1 x", "curve.txt", "M 0 0 C nan 1 2 1 2 0 Z"):
+        with pytest.raises(InputError, match="is neither the d of a path"):
+            shapes.bezier_path(text)
+    with pytest.raises(InputError, match="source is 5: give"):
+        shapes.bezier_path(5)  # type: ignore[arg-type]
+
+
 def test_bezier_path_makes_rounded_joints_smooth_and_refuses_corners() -> None:
     pytest.importorskip("svgelements")
     rounded = shapes.bezier_path("M 0 0 C 0.001 1.5 2 1.5 2 0 C 2 -1.5 0 -1.5 0 0 Z")
@@ -245,11 +364,74 @@ def test_bezier_path_makes_rounded_joints_smooth_and_refuses_corners() -> None:
         (lambda: shapes.superformula(4, 2, 1, 2), "n2 must be at least 2"),
         (lambda: shapes.fourier([1.0]), "one besides the first"),
         (lambda: shapes.union(), "at least one loop"),
+        (lambda: shapes.union(shapes.circle(), 3), "curve 1 is 3, not a SmoothCurve"),
+        (lambda: shapes.circle(1e300), r"r must be between 1e-60 and 1e\+60, not 1e\+300"),
+        (lambda: shapes.circle(1e-300), r"r must be between .*, not 1e-300"),
+        (lambda: shapes.circle(10**400), "r must be positive and finite, not 1000"),
+        (lambda: shapes.circle("1"), "r must be positive and finite, not '1'"),
+        (lambda: shapes.circle(True), "r must be positive and finite, not True"),
+        (lambda: shapes.circle(None), "r must be positive and finite, not None"),
+        (lambda: shapes.ellipse(np.inf, 1), "a must be positive and finite, not inf"),
+        (lambda: shapes.stadium(1e-300, 1), "length must be between"),
+        (lambda: shapes.trefoil(0), "lobes must be a whole number from 1 to 1000, not 0"),
+        (lambda: shapes.trefoil(2.5), "lobes must be .*, not 2.5"),
+        (lambda: shapes.trefoil(np.nan), "lobes must be .*, not nan"),
+        (lambda: shapes.trefoil(10**9), "lobes must be .*, not 1000000000"),
+        (lambda: shapes.trefoil(3, np.nan), "depth must be in .*, not nan"),
+        (lambda: shapes.trefoil(3, 0.3, 1e300), "radius must be between"),
+        (lambda: shapes.blob(1.5), "seed must be a whole number of at least 0, not 1.5"),
+        (lambda: shapes.blob(-1), "seed must be a whole number of at least 0, not -1"),
+        (lambda: shapes.blob("a"), "seed must be a whole number of at least 0, not 'a'"),
+        (lambda: shapes.blob(True), "seed must be .*, not True"),
+        (lambda: shapes.blob(1, harmonics=0), "harmonics must be .* from 1 to 1000, not 0"),
+        (lambda: shapes.blob(1, roughness=np.nan), "roughness must be from 0 to 3, not nan"),
+        (lambda: shapes.blob(1, roughness=1000), "roughness must be from 0 to 3, not 1000"),
+        (lambda: shapes.blob(1, radius=1e300), "radius must be between"),
+        (lambda: shapes.superformula(-4, 2, 2, 2), "m must be a whole number from 0"),
+        (lambda: shapes.superformula(4, 0, 2, 2), "n1 must be positive"),
+        (lambda: shapes.superformula(4, 2, np.inf, 2), "n2 must be at least 2"),
+        (lambda: shapes.superformula(4, 2, 2, 2, a=1e-300), "a must be between"),
+        (lambda: shapes.superformula(2, 1, 2000, 2000), "radius of this superformula is"),
+        (lambda: shapes.fourier("ab"), "finite complex numbers"),
+        (lambda: shapes.fourier([0, 1e300]), "largest coefficient must be between"),
+        (lambda: shapes.fourier([1, 1e-300]), "besides the first must be between"),
+        (lambda: shapes.spline([(0, 0), (1, np.nan), (1, 1)]), "row 1 has nan"),
+        (lambda: shapes.spline([(0, 0), (1e300, 0), (0, 1e300)]), r"is 1e\+300 across"),
+        (lambda: shapes.spline("abc"), "is not an array"),
+        (lambda: shapes.bezier_path("M 0 0", smooth_joins=np.nan), "smooth_joins must be in"),
+        (lambda: shapes.regular_polygon(2.5), "n must be a whole number of at least 0"),
+        (lambda: shapes.regular_polygon(3, np.inf), "radius must be positive and finite"),
+        (lambda: shapes.lattice(-1), "n must be a whole number of at least 0, not -1"),
+        (lambda: shapes.lattice(2, 1.5), "m must be a whole number of at least 0, not 1.5"),
+        (lambda: shapes.circle().moved(scale=1e300), "scale must be between"),
+        (lambda: shapes.circle().moved(angle=np.inf), "angle must be a finite number, not inf"),
+        (lambda: shapes.circle().moved(offset=3), "offset must be a pair of numbers"),
+        (lambda: shapes.circle().moved(offset=(0, np.nan)), "offset must be a pair of numbers"),
+        (lambda: shapes.circle().point(np.nan), "t must be finite, not nan"),
+        (lambda: medial_axis_of_curve(shapes.circle(), rtol=0), "rtol must be in"),
     ],
 )
 def test_bad_input_is_named(make: object, words: str) -> None:
     with pytest.raises(InputError, match=words):
         make()  # type: ignore[operator]
+
+
+def test_a_curve_moved_out_of_the_range_of_sizes_is_refused() -> None:
+    huge = shapes.blob(1, radius=1e60).moved(scale=1e60)
+    tiny = shapes.circle(1e-60).moved(scale=1e-60)
+    lost = shapes.circle().moved(offset=(1e12, 0))
+    for curve, words in ((huge, r"e\+120 across"), (tiny, "2e-120 across"), (lost, "shift it")):
+        with pytest.raises(InputError, match=words):
+            local_feature_size(curve, 0.0)
+
+
+def test_a_loop_that_is_not_finite_is_refused() -> None:
+    def derivatives(u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        point = np.full((len(u), 2), np.nan)
+        return point, point, point
+
+    with pytest.raises(InputError, match="point at t = 0 is not finite"):
+        medial_axis_of_curve(SmoothCurve((Loop(derivatives),)))
 
 
 # Point sets.
@@ -272,7 +454,7 @@ def test_lattice_and_regular_polygon() -> None:
 
 def test_nearest_site_is_the_nearest_of_all() -> None:
     rng = np.random.default_rng(5)
-    for n in (1, 2, 17, 1500):
+    for n in (1, 2, 17, 1500, 20_000):
         sites, queries = rng.random((n, 2)) ** 3, rng.random((400, 2)) * 2 - 0.5
         distance, row = nearest_site(queries, sites)
         every = np.hypot(*(queries[:, None] - sites[None]).transpose(2, 0, 1))

@@ -22,23 +22,36 @@ import numpy as np
 import numpy.typing as npt
 
 from crustline.errors import InputError
-from crustline.shapes import SmoothCurve
+from crustline.scalars import as_real
+from crustline.shapes import SmoothCurve, refuse_extent
 
 __all__ = ["CurveMedialAxis", "local_feature_size", "medial_axis_of_curve", "nearest_site"]
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
+BoolArray = npt.NDArray[np.bool_]
 
 # The grid on which contacts are sought: its spacing over the radius of the smallest empty disk that
-# touches there, the smallest number of its nodes in a piece of a loop, and the largest number in
-# all.
+# touches there, the smallest number of its nodes in a loop, and the largest number in all.
 RESOLUTION = 0.15
-NODES_PER_PIECE = 24
 NODES_PER_LOOP = 240
 MOST_NODES = 200_000
+# A loop of many pieces is looked at this often in each. Of these places it needs as nodes those
+# that cut it into turns of so many radians, and those where the curvature jumps or is extreme by
+# more than this share.
+NODES_PER_PIECE = 24
+NODE_TURN = 0.05
+# How far in t beside a place the curvature of either side is taken.
+BESIDE = 1e-10
+BEND_SHARE = 1e-6
+# Where contacts no farther apart than this share of the radii have centers far apart, the axis
+# between the centers lies along the normal that they share.
+SAME_CONTACT = 1e-6
 MOST_ROUNDS = 40
 TERNARY_ROUNDS = 45
 POLISH_ROUNDS = 4
+# The search for nearest sites.
+SITES_PER_BOX, QUERIES_PER_BOX = 32, 512
 # Matrices of distances are made in blocks of this many entries.
 BLOCK = 1 << 20
 
@@ -142,7 +155,6 @@ def local_feature_size(
     return feature_size_of_samples(curve_or_points, t_or_edges)
 
 
-@lru_cache(maxsize=128)
 def medial_axis_of_curve(curve: SmoothCurve, *, rtol: float = 1e-4) -> CurveMedialAxis:
     """Return the medial axis of a smooth curve, for its local feature size within rtol.
 
@@ -156,7 +168,8 @@ def medial_axis_of_curve(curve: SmoothCurve, *, rtol: float = 1e-4) -> CurveMedi
     Raises
     ------
     InputError
-        If the curve crosses or touches itself, so that its medial axis meets it.
+        If the curve crosses or touches itself, so that its medial axis meets it; if it is not
+        finite, or its extent is not between 1e-65 and 1e+65.
 
     Notes
     -----
@@ -171,12 +184,30 @@ def medial_axis_of_curve(curve: SmoothCurve, *, rtol: float = 1e-4) -> CurveMedi
 
     The axis is kept for the next call with the same curve.
     """
-    if not 1e-6 <= rtol <= 0.1:
+    if not 1e-6 <= (share := as_real("rtol", rtol, "in [1e-6, 0.1]")) <= 0.1:
         raise InputError(f"rtol must be in [1e-6, 0.1], not {rtol}")
+    return _axis(curve, share)
+
+
+@lru_cache(maxsize=128)
+def _axis(curve: SmoothCurve, rtol: float) -> CurveMedialAxis:
+    _refuse_extremes(curve)
     if len(curve.loops) == 1 and curve.loops[0].axis is not None:
         return _known_axis(curve, curve.loops[0].axis)
-    grid = _contact_grid(curve)
-    return _linked(_traced(curve, grid, math.sqrt(8 * rtol)), rtol)
+    return _linked(_traced(*_contact_grid(curve), math.sqrt(8 * rtol)), rtol)
+
+
+def _refuse_extremes(curve: SmoothCurve) -> None:
+    t = np.arange(256 * len(curve.loops)) / (256 * len(curve.loops))
+    with np.errstate(all="ignore"):
+        points = curve.point(t)
+    finite = np.isfinite(points).all(axis=1)
+    if not finite.all():
+        raise InputError(
+            f"the curve's point at t = {t[np.argmin(finite)]:g} is not finite: correct the loop"
+        )
+    for part in np.split(points, len(curve.loops)):
+        refuse_extent(part)
 
 
 def _known_axis(curve: SmoothCurve, ends: FloatArray) -> CurveMedialAxis:
@@ -216,6 +247,10 @@ class _Nodes:
         """Return the diagonal of the bounding box."""
         return float(np.hypot(*np.ptp(self.point, axis=0)))
 
+    def grain(self) -> float:
+        """Return the square of a distance, times a curvature, at which rounding spoils circles."""
+        return max(4e-9 * self.extent(), 8e-12 * float(np.abs(self.point).max()))
+
 
 def _nodes(curve: SmoothCurve, t: FloatArray) -> _Nodes:
     c = len(curve.loops)
@@ -227,26 +262,79 @@ def _nodes(curve: SmoothCurve, t: FloatArray) -> _Nodes:
     return _Nodes(curve, t, loop, curve.point(t), normal, curve.curvature(t), following)
 
 
-def _contact_grid(curve: SmoothCurve) -> _Nodes:
-    """Return nodes so close that no contact of an empty disk is missed between them."""
+def _contact_grid(curve: SmoothCurve) -> tuple[_Nodes, FloatArray]:
+    """Return nodes so close that no contact of an empty disk is missed between them, and disks."""
     grid = _nodes(curve, _first_nodes(curve))
     _refuse_crossings(grid)
+    grid, _ = _refined(grid, _empty_disks(grid, grid))
+    grid = _nodes(curve, np.union1d(grid.t, _curvature_peaks(grid)))
+    while True:
+        # A finer grid may show tighter disks at the nodes that it was refined from.
+        refined, disks = _refined(grid, _empty_disks(grid, grid))
+        if len(refined.t) == len(grid.t):
+            return refined, disks
+        grid = refined
+
+
+def _refined(grid: _Nodes, disks: FloatArray) -> tuple[_Nodes, FloatArray]:
+    """Return the grid with nodes where it is too wide for its disks, and the disks of all."""
     for _ in range(MOST_ROUNDS):
-        tight = np.maximum(*_empty_disks(grid, grid))
+        tight = disks.max(axis=0)
         step = np.hypot(*(grid.point[grid.following] - grid.point).T)
         wide = np.flatnonzero(step * np.maximum(tight, tight[grid.following]) > RESOLUTION)
         if not len(wide):
-            return _nodes(curve, np.union1d(grid.t, _curvature_peaks(grid)))
+            return grid, disks
         if len(grid.t) + len(wide) > MOST_NODES:
             break
-        grid = _nodes(curve, np.sort(np.concatenate([grid.t, grid.middles(wide)])))
-    raise _touches_itself(grid.point[int(np.argmax(tight))])
+        t = np.concatenate([grid.t, grid.middles(wide)])
+        finer = _nodes(grid.curve, np.sort(t))
+        grid, disks = finer, _with_disks(disks, t, finer)
+    raise _too_fine(grid.point[int(np.argmax(tight))])
+
+
+def _with_disks(disks: FloatArray, t: FloatArray, grid: _Nodes) -> FloatArray:
+    """Return the disks at all of t in its order, (2, k): those given are the first ones'."""
+    more = _empty_disks(_nodes(grid.curve, t[disks.shape[1] :]), grid)
+    return np.concatenate([disks, more], axis=1)[:, np.argsort(t)]
 
 
 def _first_nodes(curve: SmoothCurve) -> FloatArray:
     c = len(curve.loops)
-    counts = [max(NODES_PER_LOOP, NODES_PER_PIECE * loop.pieces) for loop in curve.loops]
-    return np.concatenate([(i + np.arange(k) / k) / c for i, k in enumerate(counts)])
+    loops = (_first_of_loop(part) for part in curve.components)
+    return np.concatenate([(i + u) / c for i, u in enumerate(loops)])
+
+
+def _first_of_loop(loop: SmoothCurve) -> FloatArray:
+    """Return u of the first nodes of a loop."""
+    k = max(NODES_PER_LOOP, NODES_PER_PIECE * loop.loops[0].pieces)
+    u = np.arange(k) / k
+    return u if k == NODES_PER_LOOP else u[_is_node(loop, u)]
+
+
+def _is_node(loop: SmoothCurve, u: FloatArray) -> BoolArray:
+    """Return which of many places along a loop show its length, turns, jumps and bends."""
+    _, velocity, _ = loop.derivatives(u)
+    ahead = np.roll(velocity, -1, axis=0)
+    cross = velocity[:, 0] * ahead[:, 1] - velocity[:, 1] * ahead[:, 0]
+    turn = np.abs(np.arctan2(cross, np.sum(velocity * ahead, axis=1)))
+    length = np.hypot(*velocity.T) / len(u)
+    weight = turn / NODE_TURN + NODES_PER_LOOP * length / length.sum()
+    # The step from each place to the next one, and what has gone before it.
+    before = np.concatenate([[0.0], np.cumsum(weight)])
+    crossed = np.diff(np.floor(before), prepend=-1.0)[:-1] > 0
+    wide = weight > 1
+    bends = _bends(loop, u, float(length.sum()))
+    return np.asarray(crossed | wide | np.roll(wide, 1) | bends)
+
+
+def _bends(loop: SmoothCurve, u: FloatArray, length: float) -> BoolArray:
+    """Return at which places the curvature jumps or is extreme, but for small shares."""
+    # Beside the places, for at a joint of pieces the curvature is that of one of the two.
+    left, right = loop.curvature(u - BESIDE), loop.curvature(u + BESIDE)
+    small = BEND_SHARE * (np.abs(left) + np.abs(right) + 1 / length)
+    rise, fall = left - np.roll(right, 1), np.roll(left, -1) - right
+    extreme = (rise * fall <= 0) & (np.maximum(np.abs(rise), np.abs(fall)) > small)
+    return np.asarray(extreme | (np.abs(right - left) > small))
 
 
 def _curvature_peaks(grid: _Nodes) -> FloatArray:
@@ -272,9 +360,9 @@ def _curvature_peaks(grid: _Nodes) -> FloatArray:
     return grid.near(j, (low + high) / 2)
 
 
-def _traced(curve: SmoothCurve, grid: _Nodes, gap: float) -> tuple[_Nodes, FloatArray]:
+def _traced(grid: _Nodes, disks: FloatArray, gap: float) -> tuple[_Nodes, FloatArray]:
     """Return nodes and curvatures (2, k) of their disks, centers at most gap radii apart."""
-    nodes, disks = grid, _empty_disks(grid, grid)
+    nodes = grid
     for _ in range(MOST_ROUNDS):
         wide = np.flatnonzero(
             _far_apart(nodes, disks[0], 1, gap) | _far_apart(nodes, disks[1], -1, gap)
@@ -283,11 +371,9 @@ def _traced(curve: SmoothCurve, grid: _Nodes, gap: float) -> tuple[_Nodes, Float
             return nodes, disks
         if len(nodes.t) + len(wide) > MOST_NODES:
             break
-        t = nodes.middles(wide)
-        order = np.argsort(np.concatenate([nodes.t, t]))
-        disks = np.concatenate([disks, _empty_disks(_nodes(curve, t), grid)], axis=1)[:, order]
-        nodes = _nodes(curve, np.concatenate([nodes.t, t])[order])
-    raise _touches_itself(nodes.point[int(np.argmax(disks.max(axis=0)))])
+        t = np.concatenate([nodes.t, nodes.middles(wide)])
+        nodes, disks = _nodes(grid.curve, np.sort(t)), _with_disks(disks, t, grid)
+    raise _too_fine(nodes.point[int(np.argmax(disks.max(axis=0)))])
 
 
 def _far_apart(nodes: _Nodes, disks: FloatArray, side: int, gap: float) -> npt.NDArray[np.bool_]:
@@ -295,11 +381,13 @@ def _far_apart(nodes: _Nodes, disks: FloatArray, side: int, gap: float) -> npt.N
     center, radius = _centers(nodes, disks, side)
     step = np.hypot(*(center[nodes.following] - center).T)
     least = np.minimum(radius, radius[nodes.following])
+    apart = np.hypot(*(nodes.point[nodes.following] - nodes.point).T) > SAME_CONTACT * least
     one = np.isfinite(radius) ^ np.isfinite(radius[nodes.following])
     both = np.isfinite(radius + radius[nodes.following])
     # A disk beyond half the extent matters to no point, so where the axis runs off its end may stay
     # rough.
-    return np.asarray((both & (step > gap * least)) | (one & (least < 0.6 * nodes.extent())))
+    wide = both & apart & (step > gap * least)
+    return np.asarray(wide | (one & (least < 0.6 * nodes.extent())))
 
 
 def _centers(nodes: _Nodes, disks: FloatArray, side: int) -> tuple[FloatArray, FloatArray]:
@@ -332,7 +420,7 @@ def _empty_disks(nodes: _Nodes, grid: _Nodes) -> FloatArray:
     # Where the curvature jumps, the osculating disks of both sides count.
     every = np.arange(len(nodes.t))
     beside = [
-        nodes.curve.curvature(nodes.near(every, np.full(len(every), e))) for e in (-1e-10, 1e-10)
+        nodes.curve.curvature(nodes.near(every, np.full(len(every), e))) for e in (-BESIDE, BESIDE)
     ]
     either = np.stack([nodes.curvature, *beside])
     out = np.stack([either.max(axis=0), -either.min(axis=0)])
@@ -340,53 +428,76 @@ def _empty_disks(nodes: _Nodes, grid: _Nodes) -> FloatArray:
     # magnitude.
     scales = 0.5 ** np.arange(6, 26) / len(nodes.curve.loops)
     offsets = np.concatenate([-scales, scales])
-    extent = grid.extent()
+    size = grid.extent(), grid.grain()
     rows = max(1, BLOCK // len(grid.t))
     for start in range(0, len(nodes.t), rows):
         block = slice(start, start + rows)
         own = np.arange(len(nodes.t))[block]
         around = nodes.curve.point(nodes.near(own, np.tile(offsets, (len(own), 1))))
-        g, close = (_touching(nodes, x, block, extent) for x in (grid.point[None], around))
+        g, close = (_touching(nodes, x, block, size) for x in (grid.point[None], around))
         for side, sign in enumerate((1.0, -1.0)):
-            best = _best_contacts(nodes, grid, sign * g, sign, block)
+            best = _best_contacts(nodes, grid, sign * g, sign, block, size)
             best = np.maximum(best, (sign * close).max(axis=1))
             out[side, block] = np.maximum(out[side, block], best)
     return out
 
 
-def _touching(nodes: _Nodes, x: FloatArray, rows: slice, extent: float) -> FloatArray:
+def _touching(nodes: _Nodes, x: FloatArray, rows: slice, size: tuple[float, float]) -> FloatArray:
     """Return the signed curvature of the circles that touch at nodes and pass x (r, k, 2).
 
-    `extent` is the size of the whole curve: a single node has none.
+    `size` is the extent and the grain of the whole curve: a single node has none.
     """
-    d = x - nodes.point[rows, None]
-    square = d[..., 0] ** 2 + d[..., 1] ** 2
+    extent, grain = size
+    p = nodes.point[rows, None]
+    dx, dy = x[..., 0] - p[..., 0], x[..., 1] - p[..., 1]
+    square = dx * dx + dy * dy
     normal, curvature = nodes.normal[rows, None], nodes.curvature[rows, None]
     # Nearer to the node than this, rounding spoils the fraction; its limit is the curvature.
-    near = square < 4e-9 * extent / np.maximum(np.abs(curvature), 1 / extent)
-    height = normal[..., 0] * d[..., 0] + normal[..., 1] * d[..., 1]
+    near = square < grain / np.maximum(np.abs(curvature), 1 / extent)
+    height = normal[..., 0] * dx + normal[..., 1] * dy
     return np.where(near, curvature, 2 * height / np.where(near, 1.0, square))
 
 
 def _best_contacts(
-    nodes: _Nodes, grid: _Nodes, g: FloatArray, sign: float, rows: slice
+    nodes: _Nodes,
+    grid: _Nodes,
+    g: FloatArray,
+    sign: float,
+    rows: slice,
+    size: tuple[float, float],
 ) -> FloatArray:
     """Return the largest touching curvature, from its signed values g at the grid."""
     before = np.empty_like(grid.following)
     before[grid.following] = np.arange(len(before))
-    peaks = np.where((g >= g[:, before]) & (g >= g[:, grid.following]), g, -np.inf)
+    peaks = np.where(_is_peak(g, grid.following), g, -np.inf)
     best = np.full(len(g), -np.inf)
     every = np.arange(len(g))
     # The two highest peaks between grid nodes: which one is higher may be decided only there.
     for _ in range(2):
         j = np.argmax(peaks, axis=1)
-        best = np.maximum(best, _polished(nodes, grid, j, before[j], sign, rows))
+        best = np.maximum(best, _polished(nodes, grid, j, before[j], sign, rows, size))
         peaks[every, j] = -np.inf
     return best
 
 
+def _is_peak(g: FloatArray, following: IntArray) -> BoolArray:
+    """Return where rows of g are no lower than at the nodes before and after, along each loop."""
+    ahead, back = np.empty(g.shape, dtype=np.bool_), np.empty(g.shape, dtype=np.bool_)
+    ahead[:, :-1], back[:, 1:] = g[:, :-1] >= g[:, 1:], g[:, 1:] >= g[:, :-1]
+    last = np.flatnonzero(following != np.arange(1, len(following) + 1))
+    first = following[last]
+    ahead[:, last], back[:, first] = g[:, last] >= g[:, first], g[:, first] >= g[:, last]
+    return ahead & back
+
+
 def _polished(
-    nodes: _Nodes, grid: _Nodes, j: IntArray, before: IntArray, sign: float, rows: slice
+    nodes: _Nodes,
+    grid: _Nodes,
+    j: IntArray,
+    before: IntArray,
+    sign: float,
+    rows: slice,
+    size: tuple[float, float],
 ) -> FloatArray:
     """Return the top of the peak at grid nodes j.
 
@@ -400,11 +511,9 @@ def _polished(
     every = np.arange(len(j))
     for _ in range(POLISH_ROUNDS):
         x = best_at[:, None] + np.stack([low, 0 * low, high], -1)
-        f = sign * _touching(nodes, grid.curve.point(grid.near(j, x)), rows, grid.extent())
+        f = sign * _touching(nodes, grid.curve.point(grid.near(j, x)), rows, size)
         top = best_at + np.clip(_parabola_top(low, high, f), low, high)
-        g = sign * _touching(
-            nodes, grid.curve.point(grid.near(j, top[:, None])), rows, grid.extent()
-        )
+        g = sign * _touching(nodes, grid.curve.point(grid.near(j, top[:, None])), rows, size)
         x, f = np.column_stack([x, top]), np.column_stack([f, g])
         highest = np.argmax(f, axis=1)
         best_at, best = x[every, highest], np.maximum(best, f[every, highest])
@@ -450,36 +559,61 @@ def _touches_itself(point: FloatArray) -> InputError:
     )
 
 
+def _too_fine(point: FloatArray) -> InputError:
+    return InputError(
+        f"the curve crosses or touches itself near ({point[0]:g}, {point[1]:g}), or nearly: "
+        "give a curve whose features are larger beside its length"
+    )
+
+
 def nearest_site(queries: FloatArray, sites: FloatArray) -> tuple[FloatArray, IntArray]:
     """Return the distance from queries (k, 2) to the nearest of sites (n, 2), and its row.
 
     Notes
     -----
-    Exact up to rounding; of equally near sites, one. Sites are put into about √n boxes;
-    only the boxes that may hold the nearest site are searched, so the time is about k √n.
+    Exact up to rounding; of equally near sites, one. Sites are put into boxes, and so are queries:
+    those of one box regard only the boxes of sites that may hold the nearest one.
     """
-    boxes = _boxes(sites)
-    low = np.array([sites[box].min(axis=0) for box in boxes])
-    high = np.array([sites[box].max(axis=0) for box in boxes])
+    boxes = _boxes(sites, SITES_PER_BOX)
+    low, high = _corners(sites, boxes)
     distance, row = np.empty(len(queries)), np.empty(len(queries), dtype=np.int64)
-    step = max(1, BLOCK // len(boxes))
-    for start in range(0, len(queries), step):
-        part = slice(start, start + step)
-        distance[part], row[part] = _nearest_in_boxes(queries[part], sites, boxes, low, high)
+    for group in _boxes(queries, QUERIES_PER_BOX):
+        near = _boxes_in_reach(queries[group], low, high)
+        few = [boxes[j] for j in near]
+        step = max(1, BLOCK // len(near))
+        for part in (group[start : start + step] for start in range(0, len(group), step)):
+            found = _nearest_in_boxes(queries[part], sites, few, low[near], high[near])
+            distance[part], row[part] = found
     return np.sqrt(distance), row
 
 
-def _boxes(sites: FloatArray) -> list[IntArray]:
-    """Return the rows of sites in boxes: strips by x, each cut by y."""
-    count = max(1, math.isqrt(len(sites)) // 2)
-    strips = np.array_split(np.argsort(sites[:, 0], kind="stable"), max(1, math.isqrt(count)))
+def _boxes(points: FloatArray, size: int) -> list[IntArray]:
+    """Return the rows of points in boxes of about `size`: strips by x, each cut by y."""
+    count = max(1, len(points) // size)
+    strips = np.array_split(np.argsort(points[:, 0], kind="stable"), max(1, math.isqrt(count)))
     cuts = -(-count // len(strips))
     boxes = (
         box
         for strip in strips
-        for box in np.array_split(strip[np.argsort(sites[strip, 1], kind="stable")], cuts)
+        for box in np.array_split(strip[np.argsort(points[strip, 1], kind="stable")], cuts)
     )
     return [box for box in boxes if len(box)]
+
+
+def _corners(points: FloatArray, boxes: list[IntArray]) -> tuple[FloatArray, FloatArray]:
+    """Return the least and the largest coordinates in each box, (b, 2)."""
+    starts = np.cumsum([0] + [len(box) for box in boxes[:-1]])
+    ordered = points[np.concatenate(boxes)]
+    return np.minimum.reduceat(ordered, starts), np.maximum.reduceat(ordered, starts)
+
+
+def _boxes_in_reach(q: FloatArray, low: FloatArray, high: FloatArray) -> IntArray:
+    """Return the boxes that may hold the nearest site of one of the queries."""
+    least, most = q.min(axis=0), q.max(axis=0)
+    gap = np.maximum(np.maximum(low - most, least - high), 0)
+    reach = np.maximum(most - low, high - least)
+    limit = float((reach[:, 0] ** 2 + reach[:, 1] ** 2).min()) * (1 + 1e-12)
+    return np.flatnonzero(gap[:, 0] ** 2 + gap[:, 1] ** 2 <= limit)
 
 
 def _nearest_in_boxes(

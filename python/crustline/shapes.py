@@ -8,6 +8,7 @@ second [1/c, 2/c), and so on. `crustline.local_feature_size` measures such a cur
 
 from __future__ import annotations
 
+import io
 import math
 import os
 from collections.abc import Callable, Iterable
@@ -17,7 +18,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from crustline.errors import InputError, missing_extra
+from crustline.arrays import as_points
+from crustline.errors import FormatError, InputError, missing_extra
+from crustline.scalars import LARGEST, as_positive, as_real, as_size, as_whole
 
 if TYPE_CHECKING:
     from crustline.feature_size import CurveMedialAxis
@@ -45,6 +48,13 @@ __all__ = [
 FloatArray = npt.NDArray[np.float64]
 Derivatives = Callable[[FloatArray], tuple[FloatArray, FloatArray, FloatArray]]
 TAU = 2 * math.pi
+#: Extents of smooth curves: some more than their parameters may say.
+NARROWEST, WIDEST = 1e-65, 1e65
+#: Extents as shares of the coordinates, at the least: rounding is a millionth of them.
+FINEST = 1e-10
+#: Waves round a shape, at the most; and the deviation of a blob's logarithm, beyond which its
+#: narrowest part is less than a millionth of its extent.
+MOST_WAVES, ROUGHEST = 1000, 3.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,13 +137,15 @@ class SmoothCurve:
         Parameters
         ----------
         t : array_like of float, any shape
-            Taken modulo 1.
+            Finite; taken modulo 1.
 
         Returns
         -------
         point, velocity, acceleration : ndarray of float64, shape (..., 2)
         """
         t = np.asarray(t, dtype=np.float64)
+        if not np.isfinite(t).all():
+            raise InputError(f"t must be finite, not {t[~np.isfinite(t)].flat[0]}")
         place = (t.ravel() % 1.0) * len(self.loops)
         which = np.minimum(place.astype(np.int64), len(self.loops) - 1)
         out = np.empty((3, t.size, 2))
@@ -165,9 +177,8 @@ class SmoothCurve:
         self, *, scale: float = 1.0, angle: float = 0.0, offset: npt.ArrayLike = (0.0, 0.0)
     ) -> SmoothCurve:
         """Return the curve scaled about the origin, turned by angle (radians), then shifted."""
-        _positive("scale", scale)
-        shift = np.asarray(offset, dtype=np.float64)
-        return SmoothCurve(tuple(loop.moved(scale, angle, shift) for loop in self.loops))
+        size, turn, shift = as_size("scale", scale), as_real("angle", angle), _as_offset(offset)
+        return SmoothCurve(tuple(loop.moved(size, turn, shift) for loop in self.loops))
 
     def medial_axis(self, *, rtol: float = 1e-4) -> CurveMedialAxis:
         """Return the medial axis: see `crustline.feature_size.medial_axis_of_curve`."""
@@ -184,12 +195,15 @@ def union(*curves: SmoothCurve) -> SmoothCurve:
     >>> union(circle(3), circle(1), circle(1).moved(offset=(5, 0)))
     SmoothCurve(3 loops)
     """
+    for i, curve in enumerate(curves):
+        if not isinstance(curve, SmoothCurve):
+            raise InputError(f"curve {i} is {curve!r:.60}, not a SmoothCurve")
     return SmoothCurve(tuple(loop for curve in curves for loop in curve.loops))
 
 
 def circle(r: float = 1.0) -> SmoothCurve:
     """Return the circle of radius r about the origin. Its medial axis is its center."""
-    _positive("r", r)
+    r = as_size("r", r)
     return SmoothCurve((Loop(_elliptic(r, r), axis=np.zeros((1, 2))),))
 
 
@@ -207,8 +221,7 @@ def ellipse(a: float, b: float) -> SmoothCurve:
     >>> ellipse(2, 1).medial_axis().vertices.tolist()
     [[-1.5, 0.0], [1.5, 0.0]]
     """
-    _positive("a", a)
-    _positive("b", b)
+    a, b = as_size("a", a), as_size("b", b)
     if a == b:
         return circle(a)
     end = [(a * a - b * b) / a, 0.0] if a > b else [0.0, (b * b - a * a) / b]
@@ -238,8 +251,7 @@ def stadium(length: float, radius: float) -> SmoothCurve:
     >>> stadium(4, 1).medial_axis().vertices.tolist()
     [[-2.0, 0.0], [2.0, 0.0]]
     """
-    _positive("length", length)
-    _positive("radius", radius)
+    length, radius = as_size("length", length), as_size("radius", radius)
     half, turn = length / 2, math.pi * radius
     total = 2 * (length + turn)
 
@@ -263,7 +275,7 @@ def trefoil(lobes: int = 3, depth: float = 0.3, radius: float = 1.0) -> SmoothCu
     Parameters
     ----------
     lobes : int
-        Three gives a trefoil. At least one.
+        Three gives a trefoil. From 1 to 1000.
     depth : float
         In [0, 1): how far the lobes stand out.
     radius : float
@@ -274,11 +286,9 @@ def trefoil(lobes: int = 3, depth: float = 0.3, radius: float = 1.0) -> SmoothCu
     >>> trefoil(3, 0.5).point(0).tolist()
     [1.5, 0.0]
     """
-    if lobes < 1 or lobes != int(lobes):
-        raise InputError(f"lobes must be a whole number of at least 1, not {lobes}")
-    if not 0 <= depth < 1:
+    lobes, radius = as_whole("lobes", lobes, 1, MOST_WAVES), as_size("radius", radius)
+    if not 0 <= (depth := as_real("depth", depth, "in [0, 1)")) < 1:
         raise InputError(f"depth must be in [0, 1), not {depth}")
-    _positive("radius", radius)
 
     def polar(phi: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         wave = depth * radius * np.cos(lobes * phi)
@@ -296,11 +306,11 @@ def blob(
     Parameters
     ----------
     seed : int
-        Seeds `numpy.random.default_rng`.
+        Seeds `numpy.random.default_rng`. At least 0.
     harmonics : int
-        How many waves go round the blob at the most.
+        How many waves go round the blob at the most. From 1 to 1000.
     roughness : float
-        Standard deviation of the logarithm of the polar radius. Zero gives a circle.
+        Standard deviation of the logarithm of the polar radius. From 0, which gives a circle, to 3.
     radius : float
         The geometric mean of the polar radius.
 
@@ -314,9 +324,11 @@ def blob(
     >>> bool(np.all(blob(7).point([0, 0.3]) == blob(7).point([0, 0.3])))
     True
     """
-    if harmonics < 1:
-        raise InputError(f"harmonics must be at least 1, not {harmonics}")
-    _positive("radius", radius)
+    seed, harmonics = as_whole("seed", seed, 0), as_whole("harmonics", harmonics, 1, MOST_WAVES)
+    span = f"from 0 to {ROUGHEST:g}"
+    if not 0 <= (roughness := as_real("roughness", roughness, span)) <= ROUGHEST:
+        raise InputError(f"roughness must be {span}, not {roughness}")
+    radius = as_size("radius", radius)
     k = np.arange(1, harmonics + 1)
     draw = np.random.default_rng(seed).standard_normal((2, harmonics)) / k
     wave = draw * (roughness / math.sqrt(np.sum(1.0 / k**2)))
@@ -339,12 +351,17 @@ def superformula(
     Parameters
     ----------
     m : int
-        The rotational symmetry. Even, or the curve would not close in one turn.
+        The rotational symmetry. Even, or the curve would not close in one turn; from 0 to 1000.
     n1, n2, n3 : float
         The exponents. n1 > 0; n2 and n3 at least 2, or the curve would have corners or unbounded
         curvature.
     a, b : float
         The two axes.
+
+    Raises
+    ------
+    InputError
+        If a parameter is out of its range, or the radius would leave that from 1e-65 to 1e+65.
 
     References
     ----------
@@ -356,13 +373,11 @@ def superformula(
     >>> superformula(4, 2, 2, 2).point([0, 0.25]).round(12).tolist()
     [[1.0, 0.0], [0.0, 1.0]]
     """
+    m, n1 = as_whole("m", m, 0, MOST_WAVES), as_positive("n1", n1)
     if m % 2:
         raise InputError(f"m must be an even whole number, not {m}: other curves do not close")
-    for name, value in (("n2", n2), ("n3", n3)):
-        if not value >= 2:
-            raise InputError(f"{name} must be at least 2 for a smooth curve, not {value}")
-    for name, value in (("n1", n1), ("a", a), ("b", b)):
-        _positive(name, value)
+    n2, n3 = _as_exponent("n2", n2), _as_exponent("n3", n3)
+    a, b = as_size("a", a), as_size("b", b)
     k, p = m / 4, -1 / n1
 
     def polar(phi: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -371,7 +386,27 @@ def superformula(
         bend = p * (p - 1) * f ** (p - 2) * f1**2 + p * f ** (p - 1) * f2
         return f**p, p * f ** (p - 1) * f1, bend
 
-    return SmoothCurve((Loop(_polar(polar), pieces=m or 1),))
+    _refuse_radii(polar, max(m, 1))
+    return SmoothCurve((Loop(_polar(polar), pieces=max(m, 1)),))
+
+
+def _as_exponent(name: str, value: float) -> float:
+    wanted = "at least 2 for a smooth curve"
+    if not (exponent := as_real(name, value, wanted)) >= 2:
+        raise InputError(f"{name} must be {wanted}, not {value}")
+    return exponent
+
+
+def _refuse_radii(polar: Derivatives, waves: int) -> None:
+    """Refuse a superformula whose powers leave the range of sizes, or of float64."""
+    with np.errstate(all="ignore"):
+        r, slope, bend = polar(TAU * np.arange(64 * waves) / (64 * waves))
+        fine = (r >= NARROWEST) & (r <= WIDEST) & np.isfinite(slope) & np.isfinite(bend)
+    if not fine.all():
+        raise InputError(
+            f"the radius of this superformula is {r[np.argmin(fine)]:g} somewhere, not between "
+            f"{NARROWEST:g} and {WIDEST:g}: choose less extreme n1, n2, n3, a and b"
+        )
 
 
 def _power(x: FloatArray, x1: FloatArray, x2: FloatArray, n: float, a: float) -> FloatArray:
@@ -406,8 +441,8 @@ def fourier(coefficients: npt.ArrayLike) -> SmoothCurve:
     Raises
     ------
     InputError
-        If a coefficient is not finite, or all but the first are zero. That the curve crosses itself
-        is found when its medial axis is computed.
+        If a coefficient is not finite, all but the first are zero, or the largest is not between
+        1e-60 and 1e+60. That the curve crosses itself is found when its medial axis is computed.
 
     References
     ----------
@@ -419,11 +454,16 @@ def fourier(coefficients: npt.ArrayLike) -> SmoothCurve:
     >>> fourier([1j, 2]).point([0, 0.25]).round(12).tolist()
     [[2.0, 1.0], [0.0, 3.0]]
     """
-    c = np.asarray(coefficients, dtype=np.complex128)
+    try:
+        c = np.asarray(coefficients, dtype=np.complex128)
+    except (ValueError, TypeError, OverflowError):
+        c = np.empty((), dtype=np.complex128)
     if c.ndim != 1 or not np.isfinite(c).all():
         raise InputError("coefficients must be a row of finite complex numbers")
     if not np.any(c[1:]):
         raise InputError("coefficients must hold one besides the first that is not zero")
+    as_size("the largest coefficient", float(np.abs(c).max()))
+    as_size("the largest coefficient besides the first", float(np.abs(c[1:]).max()))
     # fftfreq calls the highest frequency of an even row negative; one coefficient of two is the
     # positive one.
     k = np.fft.fftfreq(len(c), 1 / len(c)) if len(c) != 2 else np.array([0.0, 1.0])
@@ -447,7 +487,8 @@ def spline(points: npt.ArrayLike) -> SmoothCurve:
     Raises
     ------
     InputError
-        If there are fewer than three points, or two neighbors are equal.
+        If there are fewer than three points, one is not finite, two neighbors are equal, or the
+        extent is not between 1e-65 and 1e+65.
     MissingExtraError
         If scipy is not installed (extra `smooth`).
 
@@ -456,9 +497,10 @@ def spline(points: npt.ArrayLike) -> SmoothCurve:
     Twice differentiable, parametrized by chord length. Whether it crosses itself is
     found when its medial axis is computed.
     """
-    rows = np.asarray(points, dtype=np.float64)
-    if rows.ndim != 2 or rows.shape[1:] != (2,) or len(rows) < 3:
-        raise InputError(f"a spline needs at least 3 points of shape (n, 2), not {rows.shape}")
+    rows = as_points(points)
+    if len(rows) < 3:
+        raise InputError(f"a spline needs at least 3 points, not {len(rows)}")
+    refuse_extent(rows)
     closed = np.vstack([rows, rows[:1]])
     chords = np.hypot(*np.diff(closed, axis=0).T)
     if not np.all(chords > 0):
@@ -479,8 +521,8 @@ def bezier_path(source: str | os.PathLike[str], *, smooth_joins: float = 1.0) ->
     ----------
     source : str or path
         A file whose name ends in .svg, or the `d` of a path such as "M 1 0 C …". Lines, quadratic
-        curves and arcs are raised to cubics; transforms are applied; the coordinates stay the
-        file's, so y grows downwards.
+        curves and arcs are raised to cubics; transforms are applied; the coordinates stay those
+        of the file's d attributes, whatever size in pixels its viewBox has, so y grows downwards.
     smooth_joins : float
         Degrees. Joints that turn by less (files round their handles) are made smooth: both handles
         turn to the mean direction. A joint that turns by more is a corner, which no smooth curve
@@ -489,7 +531,10 @@ def bezier_path(source: str | os.PathLike[str], *, smooth_joins: float = 1.0) ->
     Raises
     ------
     InputError
-        If a subpath is open or has a corner (the message names it), or there is none.
+        If a subpath is open or has a corner (the message names it), or there is none; if the
+        string is no path.
+    FormatError
+        If the file cannot be read, or is no SVG.
     MissingExtraError
         If svgelements is not installed (extra `svg`).
 
@@ -504,12 +549,14 @@ def bezier_path(source: str | os.PathLike[str], *, smooth_joins: float = 1.0) ->
     >>> loop.point([0, 0.25, 0.5]).tolist()
     [[0.0, 0.0], [1.0, 1.125], [2.0, 0.0]]
     """
+    if not 0 <= (tolerance := as_real("smooth_joins", smooth_joins, "in [0, 180)")) < 180:
+        raise InputError(f"smooth_joins must be in [0, 180), not {smooth_joins}")
     loops = []
     for i, pieces in enumerate(_svg_subpaths(source)):
-        control = _smoothed(pieces, math.radians(smooth_joins), f"subpath {i}")
+        control = _smoothed(pieces, math.radians(tolerance), f"subpath {i}")
         loops.append(Loop(_bezier(control), pieces=len(control)))
     if not loops:
-        raise InputError(f"{os.fspath(source)[:60]} holds no path")
+        raise InputError(f"{os.fspath(source)[:60] or 'an empty text'} holds no path")
     return SmoothCurve(tuple(loops))
 
 
@@ -519,17 +566,48 @@ def _svg_subpaths(source: str | os.PathLike[str]) -> Iterable[FloatArray]:
         import svgelements  # type: ignore[import-untyped]
     except ImportError:
         raise missing_extra("svg", "svgelements") from None
+    if not isinstance(source, str | os.PathLike):
+        raise InputError(f"source is {source!r:.60}: give the name of a .svg file, or a path's d")
     name = os.fspath(source)
     if name.lower().endswith(".svg"):
-        shapes = svgelements.SVG.parse(name, reify=True).elements()
-        paths = [svgelements.Path(e) for e in shapes if isinstance(e, svgelements.Shape)]
+        paths = _paths_of_file(svgelements, name)
     else:
-        paths = [svgelements.Path(name)]
+        paths = [_path_of_text(svgelements, name)]
     for path in paths:
         for subpath in path.as_subpaths():
             cubics = [c for segment in subpath for c in _cubics(svgelements, segment)]
             if cubics:
                 yield np.array(cubics)
+
+
+def _path_of_text(svg: Any, text: str) -> Any:
+    try:
+        return svg.Path(text)
+    except (ValueError, TypeError, AttributeError, IndexError):  # as it comes upon a wrong letter
+        raise InputError(
+            f"{text[:60]!r} is neither the d of a path, such as 'M 1 0 C …', nor a .svg file"
+        ) from None
+
+
+def _paths_of_file(svg: Any, name: str) -> list[Any]:
+    """Return the paths of an SVG file, in the coordinates within its viewBox."""
+    from xml.etree import ElementTree
+
+    from crustline.formats.file import read_bytes
+
+    try:
+        root = ElementTree.fromstring(read_bytes(name))
+    except ElementTree.ParseError as error:
+        raise FormatError(f"{name} is no SVG: {error}") from None
+    if root.tag.rpartition("}")[2] != "svg":
+        raise FormatError(f"{name} is no SVG: its outermost element is {root.tag!r:.60}")
+    box = root.attrib.pop("viewBox", "").replace(",", " ").split()
+    if len(box) == 4:
+        # A drawing as large as its viewBox is neither scaled nor, from 0 on, shifted.
+        root.attrib.update(width=box[2], height=box[3], viewBox=f"0 0 {box[2]} {box[3]}")
+    text = io.BytesIO(ElementTree.tostring(root))
+    shapes = svg.SVG.parse(text, reify=True).elements()
+    return [svg.Path(each) for each in shapes if isinstance(each, svg.Shape)]
 
 
 def _cubics(svg: Any, segment: Any) -> list[list[list[float]]]:
@@ -557,6 +635,7 @@ def _cubics(svg: Any, segment: Any) -> list[list[list[float]]]:
 
 def _smoothed(control: FloatArray, tolerance: float, name: str) -> FloatArray:
     """Return control points with handles exactly opposite at each joint; refuse corners."""
+    refuse_extent(control.reshape(-1, 2))
     size = float(np.ptp(control.reshape(-1, 2), axis=0).max())
     gap = np.abs(np.roll(control[:, 0], -1, axis=0) - control[:, 3]).max(axis=1)
     if np.any(gap > 1e-9 * size):
@@ -600,8 +679,25 @@ def _bezier(control: FloatArray) -> Derivatives:
     return derivatives
 
 
+def refuse_extent(points: FloatArray) -> None:
+    """Refuse points of a smooth curve that are too far from one another, too near, or too far."""
+    with np.errstate(over="ignore"):
+        extent = float(np.ptp(points, axis=0).max())
+    if not NARROWEST <= extent <= WIDEST:
+        raise InputError(
+            f"the curve is {extent:g} across, not between {NARROWEST:g} and {WIDEST:g}: scale it"
+        )
+    farthest = float(np.abs(points).max())
+    if farthest * FINEST > extent:
+        raise InputError(
+            f"the curve is {extent:g} across, with the coordinate {farthest:g}, which float64 "
+            "cannot tell apart well enough: shift it to the origin"
+        )
+
+
 def regular_polygon(n: int, radius: float = 1.0) -> FloatArray:
     """Return the vertices of a regular polygon, counter-clockwise from (radius, 0), (n, 2)."""
+    n, radius = as_whole("n", n, 0), as_positive("radius", radius)
     angle = TAU * np.arange(n) / n
     return radius * np.stack([np.cos(angle), np.sin(angle)], -1)
 
@@ -614,7 +710,9 @@ def lattice(n: int, m: int | None = None) -> FloatArray:
     >>> lattice(2, 3).tolist()
     [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [0.0, 2.0], [1.0, 2.0]]
     """
-    y, x = np.divmod(np.arange(n * (n if m is None else m)), max(n, 1))
+    n = as_whole("n", n, 0)
+    m = n if m is None else as_whole("m", m, 0)
+    y, x = np.divmod(np.arange(n * m), max(n, 1))
     return np.stack([x, y], -1).astype(np.float64)
 
 
@@ -693,9 +791,16 @@ def _octagon_quarter(corners: FloatArray, joined: bool) -> FloatArray:
     return np.stack([points[:-1], leave, arrive, points[1:]], axis=1)
 
 
-def _positive(name: str, value: float) -> None:
-    if not (value > 0 and math.isfinite(value)):
-        raise InputError(f"{name} must be positive and finite, not {value}")
+def _as_offset(offset: npt.ArrayLike) -> FloatArray:
+    try:
+        shift = np.asarray(offset, dtype=np.float64)
+    except (ValueError, TypeError, OverflowError):
+        shift = np.array(np.nan)
+    if shift.shape != (2,) or not (np.abs(shift) <= LARGEST).all():
+        raise InputError(
+            f"offset must be a pair of numbers no larger than {LARGEST:g}, not {offset!r:.60}"
+        )
+    return shift
 
 
 def _turned(v: FloatArray) -> FloatArray:

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from crustline.curves import Curves
 
 Column = npt.NDArray[Any]
-_CHUNK = 1 << 16
+_CHUNK = 1 << 10  # rows at a time: few, so that they stay in the cache
 _LEADING_ZERO = re.compile(r"(?<![\d.eE+-])0\d")
 _COMMENT = re.compile(r'("[^"]*")|^[ \t]*#[^\n]*', re.MULTILINE)  # what is in quotes is none
 _INTEGER = re.compile(r"[+-]?\d+")
@@ -187,7 +187,7 @@ def _header(cells: list[str], source: str) -> list[str]:
 def _read_numbers(table: _Table) -> dict[int, Column] | None:
     """Return the columns if all cells are numbers and fit; None leaves it to `_read_cells`."""
     data = table.text[table.start :]
-    if not data.strip() or (table.others and _LEADING_ZERO.search(data)):
+    if not data.strip():
         return None
     if table.decimal_comma:
         data = data.replace(",", ".")
@@ -197,6 +197,8 @@ def _read_numbers(table: _Table) -> dict[int, Column] | None:
             io.StringIO(data), delimiter=table.separator, comments=comments, quotechar='"', ndmin=2
         )
     except ValueError:
+        return None
+    if table.others and _LEADING_ZERO.search(data):
         return None
     if array.shape[1] != len(table.names) or not np.isfinite(array[:, table.positions]).all():
         return None
