@@ -16,8 +16,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import pairwise
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Literal, get_args, overload
 
@@ -28,7 +29,7 @@ from crustline.arrays import FloatArray, IntArray, as_points
 from crustline.beziers import BezierPath, fewest_pieces
 from crustline.curves import Curve, Curves, trace
 from crustline.errors import InputError, missing_extra
-from crustline.interpolation import Runs, arc_lengths, cubics, middles
+from crustline.interpolation import Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -418,8 +419,8 @@ def smooth(
     before count once; a ring of two places has corners at both; a curve with one place stands still
     there.
 
-    O(n) time: 10⁵ samples take about 0.5 s in one ring, 80,000 between 20,000 corners 0.3 s; about
-    3·10⁻⁴ s are added for each curve.
+    O(n) time: 10⁵ samples take about 0.3 s in one ring; about 3·10⁻⁴ s are added for each curve,
+    and as much for each stretch of three samples or more between corners or ends.
 
     Examples
     --------
@@ -447,7 +448,9 @@ def smooth(
         curves.coordinates, coordinates
     ):
         curves = Curves(coordinates, curves.indices, curves.offsets, curves.closed, curves.isolated)
-    return SmoothCurves(curves, _splines(curves, float(np.radians(corner_angle)), ends))
+    angle = float(np.radians(corner_angle))
+    splines = (_spline(_line(curve, angle), ends == "natural") for curve in curves)
+    return SmoothCurves(curves, tuple(splines))
 
 
 def _require_scipy() -> None:
@@ -478,33 +481,11 @@ class _Line:
     corners: IntArray
     runs: IntArray  # where runs of intervals start, and the last ends; beyond count on a ring
 
-    @property
-    def whole(self) -> bool:
-        """Whether it is a ring without corners."""
-        return self.curve.closed and len(self.corners) == 0
-
-    @property
-    def counts(self) -> IntArray:
-        """How many places each run has; its ends belong to two runs if they are corners."""
-        return np.diff(self.runs) + (not self.whole)
-
-    @property
-    def nodes(self) -> IntArray:
-        """The places, run after run."""
-        starts = np.cumsum(self.counts) - self.counts
-        within = np.arange(self.counts.sum()) - np.repeat(starts, self.counts)
-        nodes: IntArray = (np.repeat(self.runs[:-1], self.counts) + within) % len(self.places)
-        return nodes
-
-
-def _splines(curves: Curves, corner: float, ends: Ends) -> tuple[Spline, ...]:
-    """Return the splines through all curves, fitted side by side."""
-    lines = [_line(curve, corner) for curve in curves]
-    moving = [line for line in lines if len(line.places) > 1]
-    fitted = iter(_fit(moving, ends == "natural")) if moving else iter([])
-    return tuple(
-        _spline(line, next(fitted)) if len(line.places) > 1 else _standing(line) for line in lines
-    )
+    def smooth_runs(self) -> list[Run]:
+        """Return the runs between corners, or ends; a ring without corners is one."""
+        ring = self.curve.closed and len(self.corners) == 0
+        around = np.concatenate([self.places, self.places])
+        return [Run(around[first : last + 1], ring) for first, last in pairwise(self.runs)]
 
 
 def _line(curve: Curve, corner: float) -> _Line:
@@ -534,28 +515,35 @@ def _different(points: FloatArray, closed: bool) -> tuple[IntArray, IntArray]:
     return np.flatnonzero(new), place
 
 
-def _fit(lines: Sequence[_Line], natural: bool) -> Iterator[tuple[FloatArray, FloatArray]]:
-    """Yield knots and coefficients of the cubics of each line; two for each interval."""
-    sizes = np.cumsum([0] + [len(line.places) for line in lines])
-    counts = np.concatenate([line.counts for line in lines])
-    whole = np.concatenate([np.full(len(line.counts), line.whole) for line in lines])
-    runs = Runs(np.append(0, np.cumsum(counts)), whole)
-    places = np.concatenate([line.places for line in lines])
-    nodes = np.concatenate([line.nodes + size for line, size in zip(lines, sizes, strict=False)])
-    leading = nodes[runs.leads]
+def _spline(line: _Line, natural: bool) -> Spline:
+    from scipy.interpolate import PPoly
 
-    arcs = arc_lengths(runs, places[nodes])
-    lengths = np.zeros(len(places))
-    lengths[leading] = arcs[runs.leads]
-    knots = [_knots(each) for each in np.split(lengths, sizes[1:-1])]
-    steps = np.concatenate([np.diff(each) for each in knots]).reshape(-1, 2)
-    between = middles(runs, places[nodes], arcs)
-    coefficients = np.empty((len(places), 2, 4, 2))
-    fitted = cubics(runs, places[nodes], between, steps[nodes], natural)
-    coefficients[leading] = fitted[runs.leads]
-    for line, t, c in zip(lines, knots, np.split(coefficients, sizes[1:-1]), strict=True):
-        intervals = len(line.places) - (not line.curve.closed)
-        yield t[: 2 * intervals + 1], c[:intervals].reshape(-1, 4, 2).transpose(1, 0, 2)
+    if len(line.places) == 1:
+        knots, coefficients, runs = *_standing(line.places), np.array([0, 1])
+    else:
+        knots, coefficients, runs = *_fitted(line, natural), line.runs
+    curve = line.curve
+    return Spline(
+        curve.indices,
+        curve.closed,
+        curve.points,
+        parameters=knots[::2][line.place],
+        corners=curve.indices[line.first[line.corners]],
+        _cubic=PPoly(np.ascontiguousarray(coefficients), knots),
+        _runs=2 * runs,
+        _exponent=line.exponent,
+    )
+
+
+def _fitted(line: _Line, natural: bool) -> tuple[FloatArray, FloatArray]:
+    """Return knots and coefficients of the cubics of a line, two for each interval."""
+    runs = line.smooth_runs()
+    start = line.runs[0]  # a ring's first run starts at its first corner
+    knots = _knots(np.roll(np.concatenate([run.arcs for run in runs]), start))
+    around = np.append(knots, 1 + knots[1:])  # its last run goes on beyond t = 1
+    stretches = [around[2 * a : 2 * b + 1] for a, b in pairwise(line.runs)]
+    fitted = [run.cubics(t, natural) for run, t in zip(runs, stretches, strict=True)]
+    return knots, np.roll(np.concatenate(fitted, axis=1), 2 * start, axis=1)
 
 
 def _knots(lengths: FloatArray) -> FloatArray:
@@ -567,25 +555,11 @@ def _knots(lengths: FloatArray) -> FloatArray:
     return knots
 
 
-def _spline(line: _Line, fitted: tuple[FloatArray, FloatArray]) -> Spline:
-    from scipy.interpolate import PPoly
-
-    knots, coefficients = fitted
-    curve = line.curve
-    parameters = knots[::2][line.place]
-    rows = curve.indices[line.first[line.corners]]
-    cubic = PPoly(np.ascontiguousarray(coefficients), knots)
-    indices, points, runs = curve.indices, curve.points, 2 * line.runs
-    return Spline(indices, curve.closed, points, parameters, rows, cubic, runs, line.exponent)
-
-
-def _standing(line: _Line) -> Spline:
-    """Return the spline of a curve that is a single place."""
-    knots = np.array([0.0, 0.5, 1.0])
+def _standing(places: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return knots and coefficients of a curve that is a single place."""
     still = np.zeros((4, 2, 2))
-    still[3] = line.places
-    fixed = replace(line, runs=np.array([0, 1]))
-    return _spline(fixed, (knots, still))
+    still[3] = places
+    return np.array([0.0, 0.5, 1.0]), still
 
 
 def _corners(places: FloatArray, closed: bool, corner: float) -> IntArray:
@@ -622,16 +596,14 @@ def _beziers(splines: Sequence[Spline], tolerance: float | None) -> list[FloatAr
     paths = [spline._path for spline in splines]
     controls = [path.control for path in paths]
     if tolerance is not None and paths:
-        controls = _fitted(paths, splines, _positive(tolerance))
+        controls = _few(paths, splines, _positive(tolerance))
     return [
         np.ldexp(control, spline._exponent)
         for control, spline in zip(controls, splines, strict=True)
     ]
 
 
-def _fitted(
-    paths: list[BezierPath], splines: Sequence[Spline], tolerance: float
-) -> list[FloatArray]:
+def _few(paths: list[BezierPath], splines: Sequence[Spline], tolerance: float) -> list[FloatArray]:
     sizes = np.cumsum([0] + [len(path.control) for path in paths])
     counts = np.cumsum([0] + [len(path.runs) - 1 for path in paths])
     runs = [path.runs[:-1] + size for path, size in zip(paths, sizes[:-1], strict=True)]
