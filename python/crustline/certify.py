@@ -13,7 +13,7 @@ import numpy.typing as npt
 from crustline.arrays import BoolArray, FloatArray, IntArray, as_edges
 from crustline.delaunay import Delaunay
 from crustline.medial import interpolant
-from crustline.methods import beta_skeleton, crust, triangulation
+from crustline.methods import crust, triangulation
 from crustline.theory import guaranteed_r, sample_angle
 
 if TYPE_CHECKING:
@@ -246,8 +246,9 @@ def certify(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = None
     """
     delaunay = triangulation(points, None, None)
     chosen = crust(delaunay) if edges is None else as_edges(edges, len(delaunay))
-    ratio, turn, degree = interpolant(delaunay, chosen).measures()
-    theorem, threshold, differing = _theorem(delaunay, chosen)
+    smooth = interpolant(delaunay, chosen)
+    ratio, turn, degree = smooth.measures()
+    theorem, threshold, differing = _theorem(delaunay, chosen, smooth.is_beta_skeleton(BETA))
     asked = threshold or guaranteed_r("beta_skeleton", BETA)
     corner = turn > math.pi - float(sample_angle(asked))
     of_points = _reasons_of_points(degree, corner, _without(differing, chosen, len(delaunay)))
@@ -272,9 +273,11 @@ def certify(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = None
     )
 
 
-def _theorem(delaunay: Delaunay, edges: IntArray) -> tuple[str, float, IntArray]:
+def _theorem(
+    delaunay: Delaunay, edges: IntArray, is_beta_skeleton: bool
+) -> tuple[str, float, IntArray]:
     """Return the theorem for edges, its r, and if there is none the crust's edges."""
-    if np.array_equal(edges, beta_skeleton(delaunay, BETA)):
+    if is_beta_skeleton:
         return "Theorem 20 (β-skeleton, β = 1.70)", guaranteed_r("beta_skeleton", BETA), edges
     selected = crust(delaunay)
     if np.array_equal(edges, selected):

@@ -392,23 +392,22 @@ def feature_size_of_samples(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLi
     array([1., 1., 1.])
     """
     delaunay = triangulation(points, None, None)
-    sizes: FloatArray = interpolant(delaunay, as_edges(edges, len(delaunay))).sizes()
-    return sizes
+    return interpolant(delaunay, as_edges(edges, len(delaunay))).sizes()
 
 
-_latest: WeakKeyDictionary[Delaunay, tuple[IntArray, Any]] = WeakKeyDictionary()
+_latest: WeakKeyDictionary[Delaunay, _core.FeatureSize] = WeakKeyDictionary()
 
 
-def interpolant(delaunay: Delaunay, edges: IntArray) -> Any:
+def interpolant(delaunay: Delaunay, edges: IntArray) -> _core.FeatureSize:
     """Return the smooth interpolant of edges and its axis, kept for the triangulation's next call.
 
     The local feature size and the certificate rest on the same, and it is most of their work.
     """
     known = _latest.get(delaunay)
-    if known is not None and np.array_equal(known[0], edges):
-        return known[1]
+    if known is not None and known.is_of(edges):
+        return known
     made = _core.FeatureSize(delaunay._core, edges)
-    _latest[delaunay] = edges.copy(), made
+    _latest[delaunay] = made
     return made
 
 

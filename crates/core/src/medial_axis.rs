@@ -328,8 +328,11 @@ fn by_rows(delaunay: &Delaunay, parts: &[Part]) -> Vec<Vec<Found>> {
         vertex[row as usize] = NONE;
     }
     let of_rows = |vertices: &[u32]| {
-        let distinct = vertices.iter().map(|&v| v as usize).filter(|&v| v != NONE as usize);
-        distinct.flat_map(|v| parts[v / GRAIN].of(v % GRAIN)).copied().collect::<Vec<_>>()
+        let mut found = Vec::with_capacity(3 * vertices.len());
+        for v in vertices.iter().map(|&v| v as usize).filter(|&v| v != NONE as usize) {
+            found.extend_from_slice(parts[v / GRAIN].of(v % GRAIN));
+        }
+        found
     };
     vertex.par_chunks(GRAIN).map(of_rows).collect()
 }

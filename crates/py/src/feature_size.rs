@@ -3,10 +3,11 @@
 use crate::arrays::{integers, rows, values};
 use crate::call::Call;
 use crate::delaunay::Delaunay;
-use crate::trace::canonical;
+use crate::edges::canonical;
 use crustline_core as core;
 use crustline_core::certify::{Measures, measure};
 use crustline_core::edges::Edges;
+use crustline_core::methods::{Kind, beta_skeleton, is_beta_skeleton};
 use numpy::{PyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
@@ -36,6 +37,26 @@ impl FeatureSize {
             core::feature_size::FeatureSize::new(triangulation, &edges, progress)
         })?;
         Ok(Self { inner, edges, delaunay })
+    }
+
+    /// Was this made of `edges`, which are canonical?
+    fn is_of(&self, py: Python<'_>, edges: PyReadonlyArray2<'_, i64>) -> PyResult<bool> {
+        let edges = rows(py, &edges)?;
+        let same = |(own, edge): (&[u32; 2], &[i64; 2])| own.map(i64::from) == *edge;
+        Ok(edges.len() == self.edges.len() && self.edges.iter().zip(edges).all(same))
+    }
+
+    /// Are the edges the β-skeleton of circles of the points?
+    fn is_beta_skeleton(&self, py: Python<'_>, beta: f64) -> PyResult<bool> {
+        let delaunay = self.delaunay.get().core();
+        let call = Call { size: delaunay.input_len(), threads: None, callback: None };
+        call.run(py, |progress| {
+            if delaunay.duplicates().is_empty() {
+                is_beta_skeleton(delaunay, beta, self.inner.curve(), progress)
+            } else {
+                Ok(beta_skeleton(delaunay, beta, Kind::Circle, progress)? == self.edges)
+            }
+        })
     }
 
     /// The local feature size at each row.

@@ -3,6 +3,7 @@
 mod arrays;
 mod call;
 mod delaunay;
+mod edges;
 mod errors;
 mod feature_size;
 mod medial_axis;
@@ -16,6 +17,8 @@ use pyo3::prelude::*;
 mod _core {
     #[pymodule_export]
     use crate::delaunay::Delaunay;
+    #[pymodule_export]
+    use crate::edges::is_canonical;
     #[pymodule_export]
     use crate::feature_size::FeatureSize;
     #[pymodule_export]

@@ -3,7 +3,7 @@
 use crate::arrays::{coordinates, integer_rows, integers, rows, values};
 use crate::call::Call;
 use crate::delaunay::Delaunay;
-use crate::trace::canonical;
+use crate::edges::canonical;
 use crustline_core::medial_axis::{MedialAxis, medial_axis as axis};
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;

@@ -2,8 +2,7 @@
 
 use crate::arrays::{integers, points, rows, values};
 use crate::call::Call;
-use crate::errors::input_error;
-use crustline_core::edges::Edges;
+use crate::edges::canonical;
 use crustline_core::trace::Curves;
 use numpy::{PyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -30,22 +29,4 @@ pub fn trace<'py>(
         values(py, closed),
         integers(py, isolated.into_iter().map(i64::from)),
     ))
-}
-
-/// The edges as canonical ones of the core: i < j, sorted, unique, within the points.
-pub fn canonical(py: Python<'_>, edges: &[[i64; 2]], points: usize) -> PyResult<Edges> {
-    let inside = |&row: &i64| row >= 0 && (row as usize) < points;
-    if let Some(k) = edges.iter().position(|edge| edge[0] == edge[1] || !edge.iter().all(inside)) {
-        let [i, j] = edges[k];
-        let message =
-            format!("edge {k}: ({i}, {j}) does not join two different rows of the {points} points");
-        return Err(input_error(py, message));
-    }
-    let mut canonical: Edges =
-        edges.iter().map(|&[i, j]| [i.min(j) as u32, i.max(j) as u32]).collect();
-    if !canonical.is_sorted() {
-        canonical.sort_unstable();
-    }
-    canonical.dedup();
-    Ok(canonical)
 }

@@ -99,11 +99,15 @@ pub fn turned([x, y]: Point, angle: f64) -> Point {
 #[must_use]
 pub fn bends(delaunay: &Delaunay, curve: &Adjacency, scale: &Scale) -> Vec<Option<Bend>> {
     let vertices = 0..delaunay.points().len() as u32;
-    let circles: Vec<_> =
+    let mut bends: Vec<_> =
         vertices.clone().into_par_iter().map(|v| circle(delaunay, curve, v)).collect();
-    let seconds: Vec<f64> =
-        vertices.clone().into_par_iter().map(|v| second(&circles, scale, v)).collect();
-    vertices.into_par_iter().map(|v| bend(&circles, &seconds, scale, v)).collect()
+    let fits: Vec<_> = vertices.into_par_iter().map(|v| Fit::new(&bends, scale, v)).collect();
+    bends.par_iter_mut().zip(&fits).for_each(|(bend, fit)| {
+        if let (Some(bend), Some(fit)) = (bend, fit) {
+            fit.refine(bend, &fits);
+        }
+    });
+    bends
 }
 
 /// The circle through a vertex and those adjacent to it; at an endpoint through it and the next two.
@@ -148,16 +152,21 @@ fn arc(d: Point, curvature: f64) -> f64 {
     chord * (1.0 + square * (1.0 / 6.0 + square * 0.075))
 }
 
-/// The mean curvatures at a vertex and those adjacent, and the moments of their weights; in the vertex's direction.
-struct Means {
-    curvature: [f64; 3],
-    first: [f64; 3],
-    second: [f64; 3],
-    /// The adjacent vertices, and +1 or −1 as their direction agrees.
-    adjacent: [(u32, f64); 2],
+/// What makes a quadratic of the mean curvature at a vertex and those adjacent, in the vertex's direction.
+struct Fit {
+    /// Half the second derivative of the quadratic that has these means, not limited.
+    second: f64,
+    /// The quadratic's slope is the first, less the second times half its second derivative.
+    slope: [f64; 2],
+    /// The moments of the weights of the mean at the vertex.
+    moments: [f64; 2],
+    /// The largest of the means.
+    most: f64,
+    /// Do the adjacent vertices run in the same direction?
+    agree: [bool; 2],
 }
 
-impl Means {
+impl Fit {
     fn new(circles: &[Option<Bend>], scale: &Scale, v: u32) -> Option<Self> {
         let here = circles[v as usize].as_ref()?;
         let [Some(a), Some(b)] = here.adjacent else { return None };
@@ -173,47 +182,49 @@ impl Means {
             return None;
         }
         let knots = [[-h1 - h0, -h1, 0.0], [-h1, 0.0, h2], [0.0, h2, h2 + h3]];
+        let means = [signs[0] * before.curvature, here.curvature, signs[1] * after.curvature];
+        let first = knots.map(|[x, y, z]| (x + y + z) / 3.0);
+        let second = knots.map(|[x, y, z]| (x * (x + y + z) + y * (y + z) + z * z) / 6.0);
+        let span = first[2] - first[0];
         Some(Self {
-            curvature: [signs[0] * before.curvature, here.curvature, signs[1] * after.curvature],
-            first: knots.map(|[x, y, z]| (x + y + z) / 3.0),
-            second: knots.map(|[x, y, z]| (x * (x + y + z) + y * (y + z) + z * z) / 6.0),
-            adjacent: [(a, signs[0]), (b, signs[1])],
+            second: quadratic(means, first, second),
+            slope: [(means[2] - means[0]) / span, (second[2] - second[0]) / span],
+            moments: [first[1], second[1]],
+            most: means.iter().fold(0.0, |most: f64, mean| most.max(mean.abs())),
+            agree: signs.map(|sign| sign > 0.0),
         })
     }
 
-    /// Half the second derivative of the quadratic that has these means.
-    fn quadratic(&self) -> f64 {
-        let [k, m, v] = [self.curvature, self.first, self.second];
-        let left = (k[1] - k[0]) / (m[1] - m[0]);
-        let right = (k[2] - k[1]) / (m[2] - m[1]);
-        let steps = (v[2] - v[1]) / (m[2] - m[1]) - (v[1] - v[0]) / (m[1] - m[0]);
-        let second = (right - left) / steps;
-        if second.is_finite() { second } else { 0.0 }
+    /// Give `bend`, the circle at the vertex, the quadratic's curvature, and the tangent that goes with it.
+    fn refine(&self, bend: &mut Bend, fits: &[Option<Self>]) {
+        let near = [0, 1].map(|end| {
+            let fit = bend.adjacent[end].and_then(|next| fits[next as usize].as_ref());
+            let second = fit.map_or(0.0, |fit| fit.second);
+            if self.agree[end] { second } else { -second }
+        });
+        let second = limited(self.second, near);
+        let slope = self.slope[0] - second * self.slope[1];
+        let correction = -slope * self.moments[0] - second * self.moments[1];
+        let h = bend.reach[1];
+        let angle = -h * (correction / 2.0 + h * (slope / 6.0 + h * second / 12.0));
+        if [slope, correction, angle].iter().all(|x| x.is_finite()) {
+            bend.most = OVERSHOOT * self.most;
+            bend.second = second;
+            bend.slope = slope;
+            bend.curvature = (bend.curvature + correction).clamp(-bend.most, bend.most);
+            bend.tangent = turned(bend.tangent, angle);
+        }
     }
 }
 
-fn second(circles: &[Option<Bend>], scale: &Scale, v: u32) -> f64 {
-    Means::new(circles, scale, v).map_or(0.0, |means| means.quadratic())
-}
-
-fn bend(circles: &[Option<Bend>], seconds: &[f64], scale: &Scale, v: u32) -> Option<Bend> {
-    let mut bend = circles[v as usize]?;
-    let Some(means) = Means::new(circles, scale, v) else { return Some(bend) };
-    let near = means.adjacent.map(|(vertex, sign)| sign * seconds[vertex as usize]);
-    let second = limited(seconds[v as usize], near);
-    let [k, m, moment] = [means.curvature, means.first, means.second];
-    let slope = (k[2] - k[0] - second * (moment[2] - moment[0])) / (m[2] - m[0]);
-    let correction = -slope * m[1] - second * moment[1];
-    let h = bend.reach[1];
-    let angle = -h * (correction / 2.0 + h * (slope / 6.0 + h * second / 12.0));
-    if [slope, correction, angle].iter().all(|x| x.is_finite()) {
-        bend.most = OVERSHOOT * k.iter().fold(0.0, |most: f64, k| most.max(k.abs()));
-        bend.second = second;
-        bend.slope = slope;
-        bend.curvature = (bend.curvature + correction).clamp(-bend.most, bend.most);
-        bend.tangent = turned(bend.tangent, angle);
-    }
-    Some(bend)
+/// Half the second derivative of the quadratic with these means, given the moments of their weights.
+fn quadratic(means: [f64; 3], first: [f64; 3], second: [f64; 3]) -> f64 {
+    let left = (means[1] - means[0]) / (first[1] - first[0]);
+    let right = (means[2] - means[1]) / (first[2] - first[1]);
+    let steps = (second[2] - second[1]) / (first[2] - first[1])
+        - (second[1] - second[0]) / (first[1] - first[0]);
+    let quadratic = (right - left) / steps;
+    if quadratic.is_finite() { quadratic } else { 0.0 }
 }
 
 /// `value`, no larger than a multiple of the larger neighbor of its sign.

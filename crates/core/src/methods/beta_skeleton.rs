@@ -4,7 +4,8 @@
 //! Geometry (1985), and N. Amenta, M. Bern, D. Eppstein (1998), section 2, which reconstructs
 //! curves with the union of two disks.
 
-use super::gamma_graph::gamma_of;
+use super::gamma_graph::{gamma_of, has_angles};
+use crate::adjacency::Adjacency;
 use crate::angle_bound::AngleBound;
 use crate::boxes::Boxes;
 use crate::constant::{Constant, fraction};
@@ -12,8 +13,9 @@ use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, select};
 use crate::error::{Error, Result};
 use crate::point::{Point, dot, sub};
-use crate::progress::Progress;
+use crate::progress::{Progress, Stage};
 use crate::sign::{self, Form, Number};
+use rayon::prelude::*;
 use std::cmp::Ordering::{Equal, Greater};
 
 /// The family of forbidden regions for β > 1; for β ≤ 1 they are the same.
@@ -50,6 +52,32 @@ pub fn beta_skeleton(
     let bound = AngleBound::of_beta(beta);
     let sum = beta.partial_cmp(&1.0).unwrap_or(Equal);
     gamma_of(delaunay, [&bound; 2], sum, progress)
+}
+
+/// Are the edges of `curve` the β-skeleton of circles, for `beta` > 1?
+///
+/// At less than half the time that it takes to make that, or none where they are not.
+///
+/// # Errors
+/// A `beta` of at most 1, or a cancelled `progress`.
+pub fn is_beta_skeleton(
+    delaunay: &Delaunay,
+    beta: f64,
+    curve: &Adjacency,
+    progress: &Progress,
+) -> Result<bool> {
+    if !(beta > 1.0 && beta.is_finite()) {
+        let message = format!("beta must be a finite number above 1, not {beta}");
+        return Err(Error::Argument { message });
+    }
+    progress.enter(Stage::Select, delaunay.points().len())?;
+    let bound = AngleBound::of_beta(beta);
+    let is_chosen = |edge: &Edge| curve.edge(edge.p, edge.q).is_some();
+    let agrees = |edge: Edge| is_chosen(&edge) == has_angles(delaunay, edge, &bound, &bound);
+    let in_triangulation = |&[p, q]: &[u32; 2]| delaunay.star(p).neighbors.contains(&q);
+    let vertices = (0..delaunay.points().len() as u32).into_par_iter();
+    Ok(curve.edges().par_iter().all(in_triangulation)
+        && vertices.all(|p| delaunay.edges_from(p).all(agrees)))
 }
 
 /// The edges with an empty lune, for `beta` > 1.

@@ -63,7 +63,12 @@ pub(super) fn gamma_of(
 }
 
 /// Do the apexes of `edge` see it under at most these angles?
-fn has_angles(delaunay: &Delaunay, edge: Edge, left: &AngleBound, right: &AngleBound) -> bool {
+pub(super) fn has_angles(
+    delaunay: &Delaunay,
+    edge: Edge,
+    left: &AngleBound,
+    right: &AngleBound,
+) -> bool {
     let (p, q) = (delaunay.point(edge.p), delaunay.point(edge.q));
     let admits = |bound: &AngleBound, apex: Option<u32>| {
         apex.is_none_or(|apex| bound.admits(p, q, delaunay.point(apex)))

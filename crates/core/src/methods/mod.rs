@@ -15,7 +15,7 @@ mod relative_neighborhood;
 
 pub use a_shape::a_shape;
 pub use alpha_shape::alpha_shape;
-pub use beta_skeleton::{Kind, beta_skeleton};
+pub use beta_skeleton::{Kind, beta_skeleton, is_beta_skeleton};
 pub use crossing_angle::crossing_angle_graph;
 pub use crust::crust;
 pub use gabriel::gabriel;

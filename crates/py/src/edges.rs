@@ -1,0 +1,42 @@
+//! Edges from Python: pairs of rows in any order, or in the canonical one.
+
+use crate::arrays::rows;
+use crate::errors::input_error;
+use crustline_core::edges::Edges;
+use numpy::PyReadonlyArray2;
+use pyo3::prelude::*;
+use rayon::prelude::*;
+
+/// Are the edges i < j in each row, sorted, unique, and between `points` points?
+#[pyfunction]
+pub fn is_canonical(
+    py: Python<'_>,
+    edges: PyReadonlyArray2<'_, i64>,
+    points: i64,
+) -> PyResult<bool> {
+    Ok(are_canonical(rows(py, &edges)?, points))
+}
+
+fn are_canonical(edges: &[[i64; 2]], points: i64) -> bool {
+    edges.iter().all(|&[i, j]| 0 <= i && i < j && j < points)
+        && edges.windows(2).all(|pair| pair[0] < pair[1])
+}
+
+/// The edges as canonical ones of the core: i < j, sorted, unique, within the points.
+pub fn canonical(py: Python<'_>, edges: &[[i64; 2]], points: usize) -> PyResult<Edges> {
+    if are_canonical(edges, points as i64) {
+        return Ok(edges.par_iter().map(|edge| edge.map(|row| row as u32)).collect());
+    }
+    let inside = |&row: &i64| row >= 0 && (row as usize) < points;
+    if let Some(k) = edges.iter().position(|edge| edge[0] == edge[1] || !edge.iter().all(inside)) {
+        let [i, j] = edges[k];
+        let message =
+            format!("edge {k}: ({i}, {j}) does not join two different rows of the {points} points");
+        return Err(input_error(py, message));
+    }
+    let mut canonical: Edges =
+        edges.iter().map(|&[i, j]| [i.min(j) as u32, i.max(j) as u32]).collect();
+    canonical.sort_unstable();
+    canonical.dedup();
+    Ok(canonical)
+}
