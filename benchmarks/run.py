@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 
 from . import table
+from .after_crust import after_crust
 from .build_rivals import available
 from .data import DISTRIBUTIONS, HOSTILE
 from .limits import limits
@@ -103,6 +104,7 @@ def main() -> int:
         "absent": absent,
         "results": [asdict(result) for result in results],
         "small_calls": small_calls(),
+        "after_crust": {} if options.quick else after_crust(),
         "limits": limits(),
     }
     if options.quick or options.only or options.sizes or options.contenders:

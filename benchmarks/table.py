@@ -37,6 +37,11 @@ one circle and repeated points have many triangulations, and the two-pass recipe
 accident: there the number of edges of crustline's crust is held against the definition (lattice:
 all unit edges; one circle: its n sides; line: n − 1; all equal: none; all but one equal: one).
 """
+AFTER = """\
+What else the samples of curves have, a million of them on all cores: the crust from the points, and
+the rest from the triangulation and the edges that it leaves. The certificate uses the interpolant
+that the local feature size was measured on.
+"""
 LIMITS = (
     "What a million points cost at least, beside what crustline takes for them on one thread:\n"
 )
@@ -61,7 +66,7 @@ def page(figures: dict[str, Any]) -> str:
             "## Targets\n",
             markdown(
                 ["target", "at most", "measured", ""],
-                map(target_row, targets(results, figures["small_calls"])),
+                map(target_row, targets(results, figures["small_calls"], figures["after_crust"])),
             ),
             f"## Seconds for {size:,} points\n",
             "In parentheses: times one CGAL triangulation of the same points.\n",
@@ -72,6 +77,9 @@ def page(figures: dict[str, Any]) -> str:
             by_distribution(results, size, lambda result: f"{result.peak_bytes / result.n:.0f}"),
             "## Seconds by the number of points\n",
             *(by_size(results, distribution) for distribution in results.distributions),
+            "## After the crust\n",
+            AFTER,
+            markdown(["", "seconds"], after_rows(figures["after_crust"])),
             "## Where crustline loses\n",
             bullets(losses(results)) or "Nowhere in this run.\n",
             "## Agreement\n",
@@ -194,6 +202,12 @@ def left_out(results: Results, absent: dict[str, str]) -> Iterator[str]:
     for result in results.all:
         if result.note:
             yield f"{result.distribution}, {result.size:,} points, {result.label}: {result.note}"
+
+
+def after_rows(after_crust: dict[str, float]) -> Iterator[list[str]]:
+    for task, value in after_crust.items():
+        if task != "ratio":
+            yield [f"`{task}`", seconds(value)]
 
 
 def limit_rows(results: Results, limits: dict[str, float]) -> Iterator[list[str]]:

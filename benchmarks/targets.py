@@ -50,8 +50,10 @@ def largest(values: Iterable[float | None]) -> float | None:
     return max((value for value in values if value is not None), default=None)
 
 
-def targets(results: Results, small_calls: dict[str, float]) -> Iterator[Target]:
-    """Yield the targets of issue 3, in its order."""
+def targets(
+    results: Results, small_calls: dict[str, float], after_crust: dict[str, float]
+) -> Iterator[Target]:
+    """Yield the targets of the crust, then that of what comes after it."""
     for distribution, contender, bound in (
         ("curves", CRUST, 1.0),
         ("curves", CRUST_2, 0.6),
@@ -76,6 +78,11 @@ def targets(results: Results, small_calls: dict[str, float]) -> Iterator[Target]
         "edges unlike CGAL's (general position), or unlike the definition (ties)",
         0,
         errors(results),
+    )
+    yield Target(
+        "medial axis, local feature size and certificate of 10⁶ curve samples: / their crust",
+        3,
+        after_crust.get("ratio"),
     )
 
 
