@@ -103,12 +103,15 @@ DRAWINGS: dict[str, Callable[..., Any]] = {
 def test_drawings_return_the_axes_given_or_new_ones_of_equal_aspect(
     draw: Callable[..., Any],
 ) -> None:
-    ax = Figure().add_subplot()
-    assert draw(ax=ax) is ax
+    one, other = Figure().subplots(1, 2, sharex=True, sharey=True)
+    assert draw(ax=one) is one
     new = draw()
-    assert new is not ax
-    assert new.get_aspect() == 1
-    new.figure.canvas.draw()
+    assert new is not one
+    assert one.get_aspect() == new.get_aspect() == 1
+    for ax in (one, new):
+        ax.figure.canvas.draw()
+    other.set_aspect(3)
+    assert draw(ax=other).get_aspect() == 3
 
 
 def test_no_window_and_no_global_figure_is_made() -> None:

@@ -378,7 +378,7 @@ def feature_size_of_samples(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLi
     where the curvature peaks between samples) and -17 % (a stadium). At r = 0.1 the extremes are +6
     % and -13 %, at r = 0.4 +70 % and -14 %. Where the curvature is continuous the error falls at
     least with the square of r; where it jumps, as on a stadium, up to 13 % too little remain at any
-    r. For speed the axis is made of fewer, longer segments, less than 0.05 % of the distance off, and
+    r. For speed the axis is made of fewer, longer segments, less than 0.05 % off the distance, and
     the search stops within as much of the nearest.
 
     O(n log n) time: a million samples take about 1.3 times as long as their crust.

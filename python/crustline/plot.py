@@ -636,10 +636,12 @@ def _require_matplotlib() -> None:
 
 
 def _axes(ax: Axes | None, xy: FloatArray) -> Axes:
-    """Return the Axes given, or new ones, that show at least the points `xy`."""
+    """Return the Axes given, or new ones, of equal aspect, that show at least the points `xy`."""
     _require_matplotlib()
     if ax is None:
         ax = _new_axes(xy)
+    elif ax.get_aspect() == "auto":
+        ax.set_aspect("equal")
     if len(xy):
         ax.update_datalim([xy.min(axis=0), xy.max(axis=0)])
         ax.autoscale_view()
