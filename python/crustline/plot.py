@@ -422,7 +422,7 @@ def plot_medial_axis(
     vertices = np.asarray(medial_axis.vertices, np.float64)
     edges, inner = np.asarray(medial_axis.edges), np.asarray(medial_axis.inner, bool)
     core = _core(vertices)
-    ax = _axes(None, core) if ax is None else ax
+    ax = _axes(ax, core if ax is None else vertices[:0])
     seen = ax.dataLim.get_points()
     box = _box(seen if np.isfinite(seen).all() else core)
     _draw_segments(ax, _clipped(vertices[edges[inner]], box), GREEN, width, label="medial axis")
