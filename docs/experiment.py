@@ -603,7 +603,7 @@ halving.
 At r = 0.2 the median is within 10 % on each curve. The worst sample is off by up to a fifth on
 blobs. Medians converge at about the second order or faster on smooth curves. The stadium is the
 exception: its curvature jumps at four joints, which samples cannot show, and the error near them,
-of up to 13 %, stays at any r. On the circle the estimate is exact but for single samples.
+of up to 13 %, stays at any r. On the circle the estimate is exact but for rounding.
 
 ## Splines instead of polygons
 

@@ -15,6 +15,7 @@ __all__ = [
     "crust",
     "gabriel",
     "gamma_graph",
+    "is_canonical",
     "medial_axis",
     "minimum_spanning_tree",
     "nn_crust",
