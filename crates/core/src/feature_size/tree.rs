@@ -249,3 +249,61 @@ fn joined(segments: &[Segment], order: &[u32]) -> Vec<Segment> {
     };
     order.par_chunks(GRAIN).map(part).collect::<Vec<_>>().concat()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Short chains of segments, at places and in directions that look random.
+    fn chains(count: usize) -> Vec<Segment> {
+        let random = |k: usize, prime: u64| (k as u64 * prime % 1_000_003) as f64 / 1_000_003.0;
+        let chain = |k: usize| {
+            let start = [random(k, 611_953), random(k, 379_721)];
+            let (sin, cos) = (std::f64::consts::TAU * random(k, 104_729)).sin_cos();
+            let at = move |j: usize| {
+                let t = 0.002 * j as f64;
+                [start[0] + t * cos, start[1] + t * sin + t * t]
+            };
+            (0..8).map(move |j| Segment::new([at(j), at(j + 1)], 0.05))
+        };
+        (1..=count).flat_map(chain).collect()
+    }
+
+    #[test]
+    fn the_nearest_segment_is_as_near_as_any() {
+        for count in [1, 3, 60, 700] {
+            let segments = chains(count);
+            let tree = Tree::new(&segments, [0.0, 0.0, 1.0, 1.0]);
+            let places: Vec<Point> =
+                (0..400).map(|k| [f64::from(k % 20) / 19.0, f64::from(k / 20) / 19.0]).collect();
+            for (&place, (segment, distance)) in places.iter().zip(tree.nearest(&places)) {
+                let squares = segments.iter().map(|segment| Line::new(segment).square(place));
+                let nearest = squares.fold(f64::INFINITY, f64::min).sqrt();
+                assert!((distance - nearest).abs() <= 1e-3 * (nearest + 0.05));
+                assert_eq!(distance, tree.distance_to(segment, place));
+            }
+        }
+    }
+
+    #[test]
+    fn chains_are_joined() {
+        let tree = Tree::new(&chains(700), [0.0, 0.0, 1.0, 1.0]);
+        assert!(tree.lines.len() < 4 * 700);
+    }
+
+    #[test]
+    fn no_segments_are_infinitely_far() {
+        let tree = Tree::new(&[], [0.0; 4]);
+        assert_eq!(tree.nearest(&[[1.0, 2.0]]), [(0, f64::INFINITY)]);
+        assert_eq!(tree.distance_to(0, [1.0, 2.0]), f64::INFINITY);
+    }
+
+    #[test]
+    fn the_hilbert_curve_steps_to_a_cell_beside() {
+        let mut cells: Vec<[u16; 2]> = (0..64).flat_map(|x| (0..64).map(move |y| [x, y])).collect();
+        cells.sort_by_key(|&[x, y]| hilbert(x, y));
+        for pair in cells.windows(2) {
+            assert_eq!(pair[0][0].abs_diff(pair[1][0]) + pair[0][1].abs_diff(pair[1][1]), 1);
+        }
+    }
+}
