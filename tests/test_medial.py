@@ -284,6 +284,15 @@ def test_estimate_at_isolated_points_branches_and_along_a_line() -> None:
     assert feature_size_of_samples(np.empty((0, 2)), []).shape == (0,)
 
 
+@pytest.mark.parametrize("r", [0.125, 0.2])
+def test_samples_on_one_circle_have_its_radius_as_feature_size(r: float) -> None:
+    """Where all circles of curvature coincide, a disk that touches two of them is 0/0."""
+    for seed in range(10):
+        points = r_sample(circle(), r, seed=seed).points
+        sizes = feature_size_of_samples(points, crust(points))
+        np.testing.assert_allclose(sizes, 1, rtol=1e-5)
+
+
 @pytest.mark.parametrize("exponent", [-30, 30])
 def test_estimate_scales_with_the_curve(exponent: int) -> None:
     sample = r_sample(blob(1), 0.2, seed=1)

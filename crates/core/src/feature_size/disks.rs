@@ -233,7 +233,8 @@ fn touching_both(normal: Point, d: Point, through: f64, other: &Bend, least: f64
     let curvature = numerator / denominator;
     let radius = 1.0 / curvature;
     let from = [radius * normal[0] - d[0], radius * normal[1] - d[1]];
-    // Where the second contact is along the circle of curvature, times the distance to its center over its radius.
+    // Where the second contact is along the circle of curvature, times the distance to its center over its radius. Beyond
+    // the center the contact is on the far side; for samples on one circle, where ρ is 0/0, this alone tells.
     let (offset, scale) = (dot(other.tangent, from), 1.0 - bend * dot(facing, from));
     let within =
         -TRUST * other.reach[0] * scale <= offset && offset <= TRUST * other.reach[1] * scale;
