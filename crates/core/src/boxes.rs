@@ -3,7 +3,8 @@
 //! The vertices lie along a space-filling curve, so those of successive numbers lie close together,
 //! and the tree needs no order of its own: a node is a range of vertices and their bounding box.
 
-use crate::point::{Point, sub};
+use crate::bounds::Bounds;
+use crate::point::Point;
 use std::ops::Range;
 
 /// Vertices in a leaf.
@@ -19,61 +20,11 @@ pub struct Boxes {
     levels: Vec<Vec<Bounds>>,
 }
 
-/// A rectangle parallel to the axes.
-#[derive(Debug, Clone, Copy)]
-pub struct Bounds {
-    /// The smallest x and y.
-    pub low: Point,
-    /// The largest x and y.
-    pub high: Point,
-}
-
-impl Bounds {
-    const EMPTY: Self = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
-
-    fn join(self, other: Self) -> Self {
-        let pick = |f: fn(f64, f64) -> f64, a: Point, b: Point| [f(a[0], b[0]), f(a[1], b[1])];
-        Self {
-            low: pick(f64::min, self.low, other.low),
-            high: pick(f64::max, self.high, other.high),
-        }
-    }
-
-    /// The four corners.
-    #[must_use]
-    pub fn corners(&self) -> [Point; 4] {
-        let ([x, y], [z, w]) = (self.low, self.high);
-        [[x, y], [z, y], [z, w], [x, w]]
-    }
-
-    /// The same box, seen from `origin`.
-    #[must_use]
-    pub fn seen_from(&self, origin: Point) -> Self {
-        Self { low: sub(self.low, origin), high: sub(self.high, origin) }
-    }
-
-    /// May the box meet the disk around `center`? False only if they are certainly apart.
-    #[must_use]
-    pub fn may_meet_disk(&self, center: Point, radius: f64) -> bool {
-        let gap = |axis: usize| {
-            (self.low[axis] - center[axis]).max(center[axis] - self.high[axis]).max(0.0)
-        };
-        let slack = 1e-12 * (center[0].abs() + center[1].abs() + radius);
-        let (x, y, reach) = (gap(0), gap(1), radius + slack);
-        let is_apart = (x * x + y * y) * (1.0 - 1e-9) > reach * reach;
-        // An unknown (not a number) is not apart.
-        !is_apart
-    }
-}
-
 impl Boxes {
     /// The boxes around `points`.
     #[must_use]
     pub fn new(points: &[Point]) -> Self {
-        let around = |points: &[Point]| {
-            points.iter().fold(Bounds::EMPTY, |b, &p| b.join(Bounds { low: p, high: p }))
-        };
-        let mut levels: Vec<Vec<Bounds>> = vec![points.chunks(LEAF).map(around).collect()];
+        let mut levels: Vec<Vec<Bounds>> = vec![points.chunks(LEAF).map(Bounds::of).collect()];
         while let Some(below) = levels.last().filter(|level| level.len() > 1) {
             let join = |nodes: &[Bounds]| nodes.iter().fold(Bounds::EMPTY, |a, &b| a.join(b));
             levels.push(below.chunks(FAN).map(join).collect());

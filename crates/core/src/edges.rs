@@ -3,6 +3,7 @@
 use crate::delaunay::{Delaunay, Edge};
 use crate::error::Result;
 use crate::progress::{Progress, Stage};
+use crate::split::split;
 use rayon::prelude::*;
 
 /// Edges as input rows: i < j in each, sorted, unique.
@@ -68,14 +69,9 @@ pub fn sort(parts: &[Edges], rows: usize) -> Edges {
     // Inner iteration, here and below: `for` over `flatten` takes twice the time.
     parts.iter().flatten().for_each(|edge| counts[edge[0] as usize / width] += 1);
     let mut sorted = vec![[0, 0]; count];
-    let mut rest = sorted.as_mut_slice();
-    let mut tasks = Vec::with_capacity(ranges);
-    for (range, count) in counts.into_iter().enumerate() {
-        let (part, tail) = rest.split_at_mut(count);
-        tasks.push((range * width, part));
-        rest = tail;
-    }
-    tasks.into_par_iter().for_each(|(first, sorted)| sort_range(parts, first, width, sorted));
+    split(&mut sorted, counts).into_par_iter().enumerate().for_each(|(range, sorted)| {
+        sort_range(parts, range * width, width, sorted);
+    });
     sorted
 }
 

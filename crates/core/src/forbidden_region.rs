@@ -5,7 +5,7 @@
 //! N. Amenta, M. Bern, D. Eppstein (1998), Observation 16.
 
 use crate::angle_bound::{AngleBound, OppositeDot};
-use crate::boxes::Bounds;
+use crate::bounds::Bounds;
 use crate::point::{Point, cross, sub};
 use crate::predicates::orientation;
 use crate::sign;

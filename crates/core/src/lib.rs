@@ -8,6 +8,7 @@
 pub mod adjacency;
 pub mod angle_bound;
 pub mod angle_pair;
+pub mod bounds;
 pub mod boxes;
 pub mod certify;
 pub mod cocircular;
@@ -24,6 +25,7 @@ pub mod point;
 pub mod predicates;
 pub mod progress;
 pub mod sign;
+pub mod split;
 pub mod trace;
 pub mod voronoi;
 

@@ -11,6 +11,7 @@ use crate::point::{Point, length, lexicographic, sub};
 use crate::predicates::in_circle;
 use crate::progress::Progress;
 use crate::sign::ROUNDING;
+use crate::split::split;
 use crate::trace::trace;
 use crate::voronoi::{Center, circumcenter};
 use rayon::prelude::*;
@@ -343,14 +344,8 @@ fn column<T: Copy + Default + Send>(
     field: impl Fn(&Found) -> T + Sync,
 ) -> Vec<T> {
     let mut column = vec![T::default(); found.iter().map(Vec::len).sum()];
-    let mut rest = column.as_mut_slice();
-    let mut tasks = Vec::with_capacity(found.len());
-    for part in found {
-        let (target, tail) = rest.split_at_mut(part.len());
-        tasks.push((part, target));
-        rest = tail;
-    }
-    tasks.into_par_iter().for_each(|(part, target)| {
+    let targets = split(&mut column, found.iter().map(Vec::len));
+    found.par_iter().zip(targets).for_each(|(part, target)| {
         part.iter().zip(target).for_each(|(found, value)| *value = field(found));
     });
     column

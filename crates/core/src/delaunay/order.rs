@@ -4,9 +4,11 @@
 //! a vertical or a horizontal line; `divide` cuts there. G. M. Morton, "A computer oriented geodetic
 //! data base", IBM, 1966.
 
+use crate::bounds::Bounds;
 use crate::error::{Error, Result};
 use crate::point::{Point, lexicographic};
 use crate::progress::{PACE, Progress, Stage};
+use crate::split::split;
 use rayon::prelude::*;
 
 /// Points in one bucket of the first pass of the sort, about: they should fit in the first cache.
@@ -35,7 +37,7 @@ pub struct Order {
 pub fn order(points: &[Point], progress: &Progress) -> Result<Order> {
     progress.enter(Stage::Sort, points.len())?;
     let bounds = Bounds::of(points);
-    let scale = bounds.scale();
+    let scale = scale(bounds.largest());
     if scale != 1.0 {
         check_scaling(points, scale, bounds.largest())?;
     }
@@ -49,43 +51,13 @@ pub fn order(points: &[Point], progress: &Progress) -> Result<Order> {
 /// The code and the row of a point.
 type Key = (u64, u32);
 
-#[derive(Clone, Copy)]
-struct Bounds {
-    low: Point,
-    high: Point,
-}
-
-impl Bounds {
-    fn of(points: &[Point]) -> Self {
-        let empty = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
-        let bound =
-            |chunk: &[Point]| chunk.iter().fold(empty, |b, p| b.join(Self { low: *p, high: *p }));
-        if points.len() <= GRAIN {
-            return bound(points);
-        }
-        points.par_chunks(GRAIN).map(bound).reduce(|| empty, Self::join)
+/// A power of two that brings the coordinates to where no product of the filters overflows.
+fn scale(largest: f64) -> f64 {
+    if largest == 0.0 || !largest.is_finite() || (1e-20..1e20).contains(&largest) {
+        return 1.0;
     }
-
-    fn join(self, other: Self) -> Self {
-        Self {
-            low: [self.low[0].min(other.low[0]), self.low[1].min(other.low[1])],
-            high: [self.high[0].max(other.high[0]), self.high[1].max(other.high[1])],
-        }
-    }
-
-    fn largest(&self) -> f64 {
-        self.low.iter().chain(&self.high).fold(0.0, |m, x| m.max(x.abs()))
-    }
-
-    /// A power of two that brings the coordinates to where no product of the filters overflows.
-    fn scale(&self) -> f64 {
-        let largest = self.largest();
-        if largest == 0.0 || !largest.is_finite() || (1e-20..1e20).contains(&largest) {
-            return 1.0;
-        }
-        // Two steps: 2^1074, which brings up the smallest denormal, is not itself a double.
-        2f64.powi(-largest.log2().floor().max(-1000.0) as i32)
-    }
+    // Two steps: 2^1074, which brings up the smallest denormal, is not itself a double.
+    2f64.powi(-largest.log2().floor().max(-1000.0) as i32)
 }
 
 /// Scaling by a power of two is exact unless it underflows; find the first row where it does.
@@ -141,13 +113,8 @@ fn sort_keys(keys: &mut Vec<Key>, progress: &Progress) -> Result<()> {
     }
     let shift = 64 - buckets.trailing_zeros();
     let ends = scatter(keys, buckets, shift, progress)?;
-    let mut parts = Vec::with_capacity(buckets);
-    let (mut rest, mut start) = (keys.as_mut_slice(), 0);
-    for end in ends {
-        let (part, tail) = rest.split_at_mut(end - start);
-        parts.push(part);
-        (rest, start) = (tail, end);
-    }
+    let starts = std::iter::once(0).chain(ends.iter().copied());
+    let parts = split(keys, ends.iter().zip(starts).map(|(end, start)| end - start));
     parts.into_par_iter().with_min_len(16).try_for_each(|part| {
         part.sort_unstable_by_key(|key| key.0);
         progress.advance(part.len())

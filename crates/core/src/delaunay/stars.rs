@@ -6,6 +6,7 @@
 use super::rings::{self, HalfEdge, NONE};
 use crate::error::Result;
 use crate::progress::{PACE, Progress, Stage};
+use crate::split::split;
 use rayon::prelude::*;
 
 /// Vertices that one task takes at a time.
@@ -100,7 +101,7 @@ impl Stars {
             on_hull[vertex as usize] = true;
         }
         let mut neighbors = vec![0; offsets[vertices] as usize];
-        let parts = split(&mut neighbors, &offsets);
+        let parts = split(&mut neighbors, grains(&offsets));
         parts.into_par_iter().zip(first.par_chunks(GRAIN)).try_for_each(|(part, first)| {
             collect_part(slots, first, part);
             progress.advance(first.len())
@@ -124,7 +125,7 @@ impl Stars {
     /// One value for each half-edge, those of one star after another: `write` gets a vertex and its part of them.
     pub fn map<T: Copy + Send>(&self, empty: T, write: impl Fn(u32, &mut [T]) + Sync) -> Vec<T> {
         let mut values = vec![empty; self.half_edges()];
-        let parts = split(&mut values, &self.offsets);
+        let parts = split(&mut values, grains(&self.offsets));
         parts.into_par_iter().enumerate().for_each(|(k, mut part)| {
             let first = k * GRAIN;
             for v in first..(first + GRAIN).min(self.on_hull.len()) {
@@ -195,17 +196,11 @@ fn walk_hull(slots: &[HalfEdge], start: u32, first: &mut [u32]) -> Vec<u32> {
     hull
 }
 
-/// The parts of all neighbors that belong to `GRAIN` successive vertices each.
-fn split<'a, T>(mut neighbors: &'a mut [T], offsets: &[u32]) -> Vec<&'a mut [T]> {
-    let mut parts = Vec::new();
+/// The lengths of the parts of all neighbors that belong to `GRAIN` successive vertices each.
+fn grains(offsets: &[u32]) -> impl Iterator<Item = usize> {
     let last = offsets.len() - 1;
-    for start in (0..last).step_by(GRAIN) {
-        let length = offsets[(start + GRAIN).min(last)] - offsets[start];
-        let (part, rest) = neighbors.split_at_mut(length as usize);
-        parts.push(part);
-        neighbors = rest;
-    }
-    parts
+    let end = move |start: usize| offsets[(start + GRAIN).min(last)];
+    (0..last).step_by(GRAIN).map(move |start| (end(start) - offsets[start]) as usize)
 }
 
 /// Write the stars of the vertices with the half-edges `first` one after another.

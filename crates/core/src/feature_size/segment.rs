@@ -1,6 +1,6 @@
 //! Segments of the axis, as few as its shape needs.
 
-use crate::point::{Point, cross, dot, sub};
+use crate::point::{Point, cross, dot, length, sub};
 
 /// Segments are joined if what they cover lies within this part of their radius of the joined one.
 const FLAT: f64 = 5e-4;
@@ -90,7 +90,6 @@ impl Segment {
                 last = (end, place);
             }
         }
-        let length = |v: Point| dot(v, v).sqrt();
         ([first.0, last.0], length(sub(last.0, first.0)) - length(own) - length(more))
     }
 }

@@ -4,6 +4,7 @@
 //! lets one see, samples nearer than √(4 ε D/10⁻⁴) are passed over, so that the error is below 10⁻⁴ of the curvature of the extent D.
 
 use crate::adjacency::Adjacency;
+use crate::bounds::Bounds;
 use crate::delaunay::Delaunay;
 use crate::edges::Edges;
 use crate::error::Result;
@@ -50,8 +51,8 @@ pub fn stencil<'a>(
 
 /// How closely rounding lets one look.
 pub struct Scale {
-    /// The box around the points: least x and y, then largest.
-    pub bounds: [f64; 4],
+    /// The box around the points.
+    pub bounds: Bounds,
     rounding: f64,
     extent: f64,
     spacing: f64,
@@ -60,16 +61,9 @@ pub struct Scale {
 impl Scale {
     /// Of coordinates like those of `points`.
     pub fn of(points: &[Point]) -> Self {
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for point in points {
-            for k in 0..2 {
-                (low[k], high[k]) = (low[k].min(point[k]), high[k].max(point[k]));
-            }
-        }
-        let largest = low.iter().chain(&high).fold(0.0, |most: f64, x| most.max(x.abs()));
-        let rounding = f64::EPSILON / 2.0 * largest;
-        let extent = (high[0] - low[0]).max(high[1] - low[1]);
-        let bounds = [low[0], low[1], high[0], high[1]];
+        let bounds = Bounds::of(points);
+        let rounding = f64::EPSILON / 2.0 * bounds.largest();
+        let extent = bounds.extent();
         Self { bounds, rounding, extent, spacing: (4.0 * rounding * extent / ACCURACY).sqrt() }
     }
 

@@ -4,6 +4,7 @@
 //! over `FAN` successive ones. Built in linear time after the sort.
 
 use super::segment::{Segment, push};
+use crate::bounds::Bounds;
 use crate::point::{Point, dot, sub};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -18,22 +19,6 @@ const MIDDLE: usize = 2;
 const GAIN: f64 = 1e-3;
 /// Segments that one task joins at a time.
 const GRAIN: usize = 1 << 14;
-
-/// A box: least x and y, then largest.
-pub type Bounds = [f64; 4];
-
-const EMPTY: Bounds = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
-
-fn join(a: Bounds, b: Bounds) -> Bounds {
-    [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]
-}
-
-#[inline]
-fn square_to(bounds: &Bounds, p: Point) -> f64 {
-    let gap = |low: f64, high: f64, x: f64| (low - x).max(x - high).max(0.0);
-    let (x, y) = (gap(bounds[0], bounds[2], p[0]), gap(bounds[1], bounds[3], p[1]));
-    x * x + y * y
-}
 
 /// A segment, made ready for distances.
 #[derive(Debug, Clone, Copy)]
@@ -77,8 +62,10 @@ impl Tree {
         let mut levels = Vec::new();
         let mut boxes: Vec<Bounds> = segments.par_chunks(FAN).map(bounds_of).collect();
         while boxes.len() > 1 {
-            let above =
-                boxes.par_chunks(FAN).map(|part| part.iter().copied().fold(EMPTY, join)).collect();
+            let above = boxes
+                .par_chunks(FAN)
+                .map(|part| part.iter().copied().fold(Bounds::EMPTY, Bounds::join))
+                .collect();
             levels.push(std::mem::replace(&mut boxes, above));
         }
         levels.push(boxes);
@@ -109,17 +96,16 @@ impl Tree {
 
     /// The boxes of a middle level that may hold the segment nearest to one of the places.
     fn boxes_near(&self, places: &[Point]) -> (usize, Vec<u32>) {
-        let around = places.iter().fold(EMPTY, |bounds, &[x, y]| join(bounds, [x, y, x, y]));
+        let around = Bounds::of(places);
         let (mut level, mut near) = (self.levels.len() - 1, vec![0]);
         while level > MIDDLE {
             level -= 1;
             let boxes = &self.levels[level];
             let children = || near.iter().flat_map(|&node| self.children(level, node));
-            let farthest = children().map(|k| most_between(&boxes[k as usize], &around));
+            let farthest = children().map(|k| boxes[k as usize].most_square(&around));
             let most = farthest.fold(f64::INFINITY, f64::min);
-            near = children()
-                .filter(|&k| least_between(&boxes[k as usize], &around) <= most)
-                .collect();
+            near =
+                children().filter(|&k| boxes[k as usize].least_square(&around) <= most).collect();
         }
         (level, near)
     }
@@ -178,7 +164,7 @@ impl Search<'_> {
     fn push(&mut self, p: Point, best: f64, level: usize, boxes: impl Iterator<Item = u32>) {
         let start = self.stack.len();
         for number in boxes {
-            let square = square_to(&self.tree.levels[level][number as usize], p);
+            let square = self.tree.levels[level][number as usize].square_to(p);
             if square < best * (1.0 - GAIN) {
                 self.stack.push(Node { square, level, number });
             }
@@ -189,28 +175,15 @@ impl Search<'_> {
     }
 }
 
-/// The least squared distance between a place in one box and a place in the other.
-fn least_between(a: &Bounds, b: &Bounds) -> f64 {
-    let gap = |k: usize| (a[k] - b[k + 2]).max(b[k] - a[k + 2]).max(0.0);
-    gap(0).powi(2) + gap(1).powi(2)
-}
-
-/// The largest squared distance between a place in one box and a place in the other.
-fn most_between(a: &Bounds, b: &Bounds) -> f64 {
-    let span = |k: usize| (a[k + 2] - b[k]).max(b[k + 2] - a[k]);
-    span(0).powi(2) + span(1).powi(2)
-}
-
 fn bounds_of(segments: &[Segment]) -> Bounds {
-    let ends = segments.iter().flat_map(|segment| segment.ends);
-    ends.fold(EMPTY, |bounds, [x, y]| join(bounds, [x, y, x, y]))
+    segments.iter().map(|segment| Bounds::of(&segment.ends)).fold(Bounds::EMPTY, Bounds::join)
 }
 
 /// The numbers of the segments along a Hilbert curve, which leaves no gaps as a Z-order curve does: its boxes overlap half as often.
 ///
 /// Its cells cover twice the extent of the queries: some centers are so far away that they would leave no cells for the rest.
-fn order(segments: &[Segment], [left, bottom, right, top]: Bounds) -> Vec<u32> {
-    let extent = (right - left).max(top - bottom);
+fn order(segments: &[Segment], bounds: Bounds) -> Vec<u32> {
+    let ([left, bottom], extent) = (bounds.low, bounds.extent());
     let (x, y, cells) =
         (left - extent / 2.0, bottom - extent / 2.0, f64::from(u16::MAX) / (2.0 * extent));
     // The conversion saturates, so what is farther away is in the outermost cells.
@@ -254,6 +227,8 @@ fn joined(segments: &[Segment], order: &[u32]) -> Vec<Segment> {
 mod tests {
     use super::*;
 
+    const UNIT: Bounds = Bounds { low: [0.0; 2], high: [1.0; 2] };
+
     /// Short chains of segments, at places and in directions that look random.
     fn chains(count: usize) -> Vec<Segment> {
         let random = |k: usize, prime: u64| (k as u64 * prime % 1_000_003) as f64 / 1_000_003.0;
@@ -273,7 +248,7 @@ mod tests {
     fn the_nearest_segment_is_as_near_as_any() {
         for count in [1, 3, 60, 700] {
             let segments = chains(count);
-            let tree = Tree::new(&segments, [0.0, 0.0, 1.0, 1.0]);
+            let tree = Tree::new(&segments, UNIT);
             let places: Vec<Point> =
                 (0..400).map(|k| [f64::from(k % 20) / 19.0, f64::from(k / 20) / 19.0]).collect();
             for (&place, (segment, distance)) in places.iter().zip(tree.nearest(&places)) {
@@ -287,13 +262,13 @@ mod tests {
 
     #[test]
     fn chains_are_joined() {
-        let tree = Tree::new(&chains(700), [0.0, 0.0, 1.0, 1.0]);
+        let tree = Tree::new(&chains(700), UNIT);
         assert!(tree.lines.len() < 4 * 700);
     }
 
     #[test]
     fn no_segments_are_infinitely_far() {
-        let tree = Tree::new(&[], [0.0; 4]);
+        let tree = Tree::new(&[], Bounds::EMPTY);
         assert_eq!(tree.nearest(&[[1.0, 2.0]]), [(0, f64::INFINITY)]);
         assert_eq!(tree.distance_to(0, [1.0, 2.0]), f64::INFINITY);
     }

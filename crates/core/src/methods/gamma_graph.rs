@@ -6,7 +6,8 @@
 //! and none on the other under more than that of c₁.
 
 use crate::angle_bound::AngleBound;
-use crate::boxes::{Bounds, Boxes};
+use crate::bounds::Bounds;
+use crate::boxes::Boxes;
 use crate::cocircular::select_closed;
 use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, rows, select, sort};
