@@ -15,14 +15,15 @@ estimates it.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 import numpy.typing as npt
 
 from crustline.errors import InputError
-from crustline.scalars import as_real
+from crustline.scalars import as_rtol
 from crustline.shapes import SmoothCurve, refuse_extent
 
 __all__ = ["CurveMedialAxis", "local_feature_size", "medial_axis_of_curve", "nearest_site"]
@@ -184,9 +185,7 @@ def medial_axis_of_curve(curve: SmoothCurve, *, rtol: float = 1e-4) -> CurveMedi
 
     The axis is kept for the next call with the same curve.
     """
-    if not 1e-6 <= (share := as_real("rtol", rtol, "in [1e-6, 0.1]")) <= 0.1:
-        raise InputError(f"rtol must be in [1e-6, 0.1], not {rtol}")
-    return _axis(curve, share)
+    return _axis(curve, as_rtol(rtol))
 
 
 @lru_cache(maxsize=128)
@@ -228,6 +227,13 @@ class _Nodes:
     curvature: FloatArray
     following: IntArray  # the row of the next node along the loop
 
+    @cached_property
+    def preceding(self) -> IntArray:
+        """The row of the node before."""
+        preceding = np.empty_like(self.following)
+        preceding[self.following] = np.arange(len(preceding))
+        return preceding
+
     def middles(self, rows: IntArray) -> FloatArray:
         """Return t halfway between these nodes and those that follow them."""
         return self.t[rows] + self.steps()[rows] / 2
@@ -252,6 +258,10 @@ class _Nodes:
         return max(4e-9 * self.extent(), 8e-12 * float(np.abs(self.point).max()))
 
 
+#: Tells after which nodes, of these disks, another one is needed.
+IsWide = Callable[[_Nodes, FloatArray], BoolArray]
+
+
 def _nodes(curve: SmoothCurve, t: FloatArray) -> _Nodes:
     c = len(curve.loops)
     loop = np.minimum((t * c).astype(np.int64), c - 1)
@@ -266,30 +276,40 @@ def _contact_grid(curve: SmoothCurve) -> tuple[_Nodes, FloatArray]:
     """Return nodes so close that no contact of an empty disk is missed between them, and disks."""
     grid = _nodes(curve, _first_nodes(curve))
     _refuse_crossings(grid)
-    grid, _ = _refined(grid, _empty_disks(grid, grid))
+    grid, _ = _refined(grid, _empty_disks(grid, grid), _may_hide_contacts)
     grid = _nodes(curve, np.union1d(grid.t, _curvature_peaks(grid)))
     while True:
         # A finer grid may show tighter disks at the nodes that it was refined from.
-        refined, disks = _refined(grid, _empty_disks(grid, grid))
+        refined, disks = _refined(grid, _empty_disks(grid, grid), _may_hide_contacts)
         if len(refined.t) == len(grid.t):
             return refined, disks
         grid = refined
 
 
-def _refined(grid: _Nodes, disks: FloatArray) -> tuple[_Nodes, FloatArray]:
-    """Return the grid with nodes where it is too wide for its disks, and the disks of all."""
+def _refined(
+    nodes: _Nodes, disks: FloatArray, is_wide: IsWide, grid: _Nodes | None = None
+) -> tuple[_Nodes, FloatArray]:
+    """Return nodes with more of them wherever they are too wide apart, and the disks of all.
+
+    Contacts of the disks are sought on the grid; if there is none, on the nodes themselves.
+    """
     for _ in range(MOST_ROUNDS):
-        tight = disks.max(axis=0)
-        step = np.hypot(*(grid.point[grid.following] - grid.point).T)
-        wide = np.flatnonzero(step * np.maximum(tight, tight[grid.following]) > RESOLUTION)
+        wide = np.flatnonzero(is_wide(nodes, disks))
         if not len(wide):
-            return grid, disks
-        if len(grid.t) + len(wide) > MOST_NODES:
+            return nodes, disks
+        if len(nodes.t) + len(wide) > MOST_NODES:
             break
-        t = np.concatenate([grid.t, grid.middles(wide)])
-        finer = _nodes(grid.curve, np.sort(t))
-        grid, disks = finer, _with_disks(disks, t, finer)
-    raise _too_fine(grid.point[int(np.argmax(tight))])
+        t = np.concatenate([nodes.t, nodes.middles(wide)])
+        nodes = _nodes(nodes.curve, np.sort(t))
+        disks = _with_disks(disks, t, grid or nodes)
+    raise _too_fine(nodes.point[int(np.argmax(disks.max(axis=0)))])
+
+
+def _may_hide_contacts(grid: _Nodes, disks: FloatArray) -> BoolArray:
+    """Return whether a contact may be missed between a node and the following one."""
+    tight = disks.max(axis=0)
+    step = np.hypot(*(grid.point[grid.following] - grid.point).T)
+    return np.asarray(step * np.maximum(tight, tight[grid.following]) > RESOLUTION)
 
 
 def _with_disks(disks: FloatArray, t: FloatArray, grid: _Nodes) -> FloatArray:
@@ -339,17 +359,15 @@ def _bends(loop: SmoothCurve, u: FloatArray, length: float) -> BoolArray:
 
 def _curvature_peaks(grid: _Nodes) -> FloatArray:
     """Return t of the local extrema of the curvature, where the axis ends and turns back."""
-    before = np.empty_like(grid.following)
-    before[grid.following] = np.arange(len(before))
     rows, signs = [], []
     for sign in (1.0, -1.0):
         k = sign * grid.curvature
-        top = np.flatnonzero((k >= k[before]) & (k > k[grid.following]))
+        top = np.flatnonzero((k >= k[grid.preceding]) & (k > k[grid.following]))
         rows.append(top)
         signs.append(np.full(len(top), sign))
     j, sign_of = np.concatenate(rows), np.concatenate(signs)
     steps = grid.steps()
-    low, high = -steps[before[j]], steps[j]
+    low, high = -steps[grid.preceding[j]], steps[j]
     for _ in range(TERNARY_ROUNDS):
         third = (high - low) / 3
         bend = [
@@ -362,21 +380,15 @@ def _curvature_peaks(grid: _Nodes) -> FloatArray:
 
 def _traced(grid: _Nodes, disks: FloatArray, gap: float) -> tuple[_Nodes, FloatArray]:
     """Return nodes and curvatures (2, k) of their disks, centers at most gap radii apart."""
-    nodes = grid
-    for _ in range(MOST_ROUNDS):
-        wide = np.flatnonzero(
-            _far_apart(nodes, disks[0], 1, gap) | _far_apart(nodes, disks[1], -1, gap)
-        )
-        if not len(wide):
-            return nodes, disks
-        if len(nodes.t) + len(wide) > MOST_NODES:
-            break
-        t = np.concatenate([nodes.t, nodes.middles(wide)])
-        nodes, disks = _nodes(grid.curve, np.sort(t)), _with_disks(disks, t, grid)
-    raise _too_fine(nodes.point[int(np.argmax(disks.max(axis=0)))])
+
+    def are_far_apart(nodes: _Nodes, disks: FloatArray) -> BoolArray:
+        left, right = (_far_apart(nodes, disks[k], sign, gap) for k, sign in ((0, 1), (1, -1)))
+        return left | right
+
+    return _refined(grid, disks, are_far_apart, grid)
 
 
-def _far_apart(nodes: _Nodes, disks: FloatArray, side: int, gap: float) -> npt.NDArray[np.bool_]:
+def _far_apart(nodes: _Nodes, disks: FloatArray, side: int, gap: float) -> BoolArray:
     """Return whether the axis between a center and the following one needs a vertex."""
     center, radius = _centers(nodes, disks, side)
     step = np.hypot(*(center[nodes.following] - center).T)
@@ -467,15 +479,13 @@ def _best_contacts(
     size: tuple[float, float],
 ) -> FloatArray:
     """Return the largest touching curvature, from its signed values g at the grid."""
-    before = np.empty_like(grid.following)
-    before[grid.following] = np.arange(len(before))
     peaks = np.where(_is_peak(g, grid.following), g, -np.inf)
     best = np.full(len(g), -np.inf)
     every = np.arange(len(g))
     # The two highest peaks between grid nodes: which one is higher may be decided only there.
     for _ in range(2):
         j = np.argmax(peaks, axis=1)
-        best = np.maximum(best, _polished(nodes, grid, j, before[j], sign, rows, size))
+        best = np.maximum(best, _polished(nodes, grid, j, sign, rows, size))
         peaks[every, j] = -np.inf
     return best
 
@@ -494,7 +504,6 @@ def _polished(
     nodes: _Nodes,
     grid: _Nodes,
     j: IntArray,
-    before: IntArray,
     sign: float,
     rows: slice,
     size: tuple[float, float],
@@ -506,7 +515,7 @@ def _polished(
     several rounds.
     """
     steps, best_at = grid.steps(), np.zeros(len(j))
-    low, high = -steps[before], steps[j]
+    low, high = -steps[grid.preceding[j]], steps[j]
     best = np.full(len(j), -np.inf)
     every = np.arange(len(j))
     for _ in range(POLISH_ROUNDS):

@@ -19,7 +19,7 @@ import numpy.typing as npt
 from crustline.arrays import as_edges, as_points
 from crustline.errors import InputError
 from crustline.feature_size import local_feature_size, medial_axis_of_curve, nearest_site
-from crustline.scalars import as_positive, as_real, as_whole
+from crustline.scalars import as_positive, as_rtol, as_share, as_whole
 from crustline.shapes import SmoothCurve
 
 __all__ = ["Sample", "is_r_sample", "r_sample", "sample_for_error", "sampling_ratio", "thin"]
@@ -131,7 +131,7 @@ def r_sample(
     >>> [len(r_sample(ellipse(2, 1), r)) for r in (0.2, 0.5, 1.0)]
     [34, 14, 7]
     """
-    _in_unit_range("r", r)
+    r = as_share("r", r)
     return _sample(curve, lambda lfs: r * lfs, r, seed, mode)
 
 
@@ -181,7 +181,7 @@ def sample_for_error(
     >>> [len(sample_for_error(circle(), d)) for d in (1e-1, 1e-3, 1e-5)]
     [13, 71, 703]
     """
-    _in_unit_range("r", r)
+    r = as_share("r", r)
     d = as_positive("d", d)
     return _sample(curve, lambda lfs: np.minimum(np.sqrt(2 * d * lfs), r * lfs), r, seed, mode)
 
@@ -222,8 +222,7 @@ def sampling_ratio(curve: SmoothCurve, points: npt.ArrayLike, *, rtol: float = 1
     >>> round(sampling_ratio(circle(), regular_polygon(6)), 3), round(2 * math.sin(math.pi / 12), 3)
     (0.518, 0.518)
     """
-    if not 1e-6 <= as_real("rtol", rtol, "in [1e-6, 0.1]") <= 0.1:
-        raise InputError(f"rtol must be in [1e-6, 0.1], not {rtol}")
+    rtol = as_rtol(rtol)
     sites = as_points(points)
     if not len(sites):
         raise InputError("points is empty: no points sample no curve")
@@ -296,7 +295,7 @@ def thin(points: npt.ArrayLike, edges: npt.ArrayLike, r: float) -> IntArray:
     """
     from crustline.curves import trace
 
-    _in_unit_range("r", r)
+    r = as_share("r", r)
     rows = as_points(points)
     pairs = as_edges(edges, len(rows))
     if not len(pairs):
@@ -309,11 +308,6 @@ def thin(points: npt.ArrayLike, edges: npt.ArrayLike, r: float) -> IntArray:
         i = np.asarray(curve.indices, dtype=np.int64)
         kept.append(i[_thinned(rows[i], lfs[i], r, bool(curve.closed))])
     return np.unique(np.concatenate(kept))
-
-
-def _in_unit_range(name: str, value: float) -> None:
-    if not 0 < as_real(name, value, "in (0, 1]") <= 1:
-        raise InputError(f"{name} must be in (0, 1], not {value}")
 
 
 # Sampling: the longest steps, from tables.

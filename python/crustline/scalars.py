@@ -3,40 +3,61 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from numbers import Integral, Real
 
 import numpy as np
 
 from crustline.errors import InputError
 
-__all__ = ["LARGEST", "SMALLEST", "as_positive", "as_real", "as_size", "as_whole"]
+__all__ = [
+    "LARGEST",
+    "SMALLEST",
+    "as_positive",
+    "as_real",
+    "as_rtol",
+    "as_share",
+    "as_size",
+    "as_whole",
+]
 
 #: Sizes of smooth curves: for others the cubes of speeds, and more, leave the range of float64.
 SMALLEST, LARGEST = 1e-60, 1e60
 
 
-def as_real(name: str, value: object, wanted: str = "a finite number") -> float:
-    """Return a finite number as float; `wanted` is what the message says that it must be."""
+def as_real(
+    name: str,
+    value: object,
+    wanted: str = "a finite number",
+    fits: Callable[[float], bool] = math.isfinite,
+) -> float:
+    """Return a finite number that fits as float; `wanted` is what the message says it must be."""
     number = _as_float(value)
-    if not math.isfinite(number):
+    if not (math.isfinite(number) and fits(number)):
         raise _refusal(name, wanted, value)
     return number
 
 
 def as_positive(name: str, value: object) -> float:
     """Return a finite number above 0 as float."""
-    number = _as_float(value)
-    if not (number > 0 and math.isfinite(number)):
-        raise _refusal(name, "positive and finite", value)
-    return number
+    return as_real(name, value, "positive and finite", lambda x: x > 0)
 
 
 def as_size(name: str, value: object) -> float:
     """Return a positive number that is a size of a smooth curve."""
-    number = as_positive(name, value)
-    if not SMALLEST <= number <= LARGEST:
-        raise _refusal(name, f"between {SMALLEST:g} and {LARGEST:g}", value)
-    return number
+    wanted = f"between {SMALLEST:g} and {LARGEST:g}"
+    as_positive(name, value)
+    return as_real(name, value, wanted, lambda x: SMALLEST <= x <= LARGEST)
+
+
+def as_share(name: str, value: object) -> float:
+    """Return a number above 0, and 1 at the most."""
+    return as_real(name, value, "in (0, 1]", lambda x: 0 < x <= 1)
+
+
+def as_rtol(value: object) -> float:
+    """Return a relative error that computations with smooth curves can be asked for."""
+    return as_real("rtol", value, "in [1e-6, 0.1]", lambda x: 1e-6 <= x <= 0.1)
 
 
 def as_whole(name: str, value: object, low: int, high: int | None = None) -> int:

@@ -391,10 +391,7 @@ def superformula(
 
 
 def _as_exponent(name: str, value: float) -> float:
-    wanted = "at least 2 for a smooth curve"
-    if not (exponent := as_real(name, value, wanted)) >= 2:
-        raise InputError(f"{name} must be {wanted}, not {value}")
-    return exponent
+    return as_real(name, value, "at least 2 for a smooth curve", lambda x: x >= 2)
 
 
 def _refuse_radii(polar: Derivatives, waves: int) -> None:
@@ -549,8 +546,7 @@ def bezier_path(source: str | os.PathLike[str], *, smooth_joins: float = 1.0) ->
     >>> loop.point([0, 0.25, 0.5]).tolist()
     [[0.0, 0.0], [1.0, 1.125], [2.0, 0.0]]
     """
-    if not 0 <= (tolerance := as_real("smooth_joins", smooth_joins, "in [0, 180)")) < 180:
-        raise InputError(f"smooth_joins must be in [0, 180), not {smooth_joins}")
+    tolerance = as_real("smooth_joins", smooth_joins, "in [0, 180)", lambda x: 0 <= x < 180)
     loops = []
     for i, pieces in enumerate(_svg_subpaths(source)):
         control = _smoothed(pieces, math.radians(tolerance), f"subpath {i}")
