@@ -12,9 +12,20 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from crustline import shapes
+
 Rows = NDArray[np.float64]
 Random = np.random.Generator
 Generator = Callable[[Random], Rows]
+
+#: Smooth curves: one whose curvature jumps, some with lobes, and some of two components.
+SMOOTH_CURVES = {
+    "stadium": shapes.stadium(3, 0.5),
+    "trefoil": shapes.trefoil(3, 0.4),
+    "blob": shapes.blob(4),
+    "nested": shapes.ellipse(3, 2) + shapes.blob(5).moved(scale=0.7),
+    "side by side": shapes.circle() + shapes.circle().moved(offset=(2.3, 0)),
+}
 
 
 def grid(rng: Random) -> Rows:

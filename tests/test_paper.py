@@ -18,6 +18,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
+import generators
 from crustline import (
     Delaunay,
     beta_skeleton,
@@ -37,11 +38,7 @@ Edges = set[tuple[int, int]]
 
 CURVES = {
     "ellipse": shapes.ellipse(3, 1),
-    "stadium": shapes.stadium(3, 0.5),
-    "trefoil": shapes.trefoil(3, 0.4),
-    "blob": shapes.blob(4),
-    "nested": shapes.ellipse(3, 2) + shapes.blob(5).moved(scale=0.7),
-    "side by side": shapes.circle() + shapes.circle().moved(offset=(2.3, 0)),
+    **generators.SMOOTH_CURVES,
 }
 RINGS = shapes.circle(1.0) + shapes.circle(1.2) + shapes.circle(1.4)
 SEEDS = range(3)

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
+import generators
 from crustline import sampling, shapes
 from crustline.errors import InputError
 from crustline.feature_size import local_feature_size
@@ -27,11 +28,7 @@ CURVES = {
     "circle": shapes.circle(2),
     "ellipse 1.1": shapes.ellipse(1.1, 1),
     "ellipse 6": shapes.ellipse(6, 1),
-    "stadium": shapes.stadium(3, 0.5),
-    "trefoil": shapes.trefoil(3, 0.4),
-    "blob": shapes.blob(4),
-    "nested": shapes.ellipse(3, 2) + shapes.blob(5).moved(scale=0.7),
-    "side by side": shapes.circle() + shapes.circle().moved(offset=(2.3, 0)),
+    **generators.SMOOTH_CURVES,
 }
 
 

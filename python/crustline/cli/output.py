@@ -45,6 +45,13 @@ class Output:
             click.echo(f"{sentence}; {seconds:.2f} s; {end}", err=True)
 
 
+def _files_option(what: str, *, required: bool) -> Callable[[Command], Command]:
+    return click.option(
+        "-o", "--output", "files", multiple=True, metavar="OUTPUT", required=required,
+        help=f"{what} Give -o again for another one.",
+    )  # fmt: skip
+
+
 def output_options(
     suffixes: str, task: str = "write", *, required: bool = False
 ) -> Callable[[Command], Command]:
@@ -55,11 +62,7 @@ def output_options(
     """
 
     def decorate(command: Command) -> Command:
-        @click.option(
-            "-o", "--output", "files", multiple=True, metavar="OUTPUT", required=required,
-            help=f"A file to write: {suffixes}; - is standard output. Give -o again for another "
-            "one.",
-        )  # fmt: skip
+        @_files_option(f"A file to write: {suffixes}; - is standard output.", required=required)
         @click.option(
             "--output-format", metavar="F",
             help="The format of outputs whose name does not say it, such as -.",
@@ -78,11 +81,10 @@ def picture_options(*suffixes: str, pipe: bool = False) -> Callable[[Command], C
     """The same for pictures, whose format is that of their name alone."""
 
     def decorate(command: Command) -> Command:
-        @click.option(
-            "-o", "--output", "files", multiple=True, metavar="OUTPUT", required=True,
-            help=f"A picture to write: {_one_of(suffixes)}{'; - is standard output' * pipe}. "
-            "Give -o again for another one.",
-        )  # fmt: skip
+        @_files_option(
+            f"A picture to write: {_one_of(suffixes)}{'; - is standard output' * pipe}.",
+            required=True,
+        )
         @summary_options
         @functools.wraps(command)
         def run(files: tuple[str, ...], **rest: Any) -> None:
