@@ -395,10 +395,10 @@ def feature_size_of_samples(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLi
     return interpolant(delaunay, as_edges(edges, len(delaunay))).sizes()
 
 
-_latest: WeakKeyDictionary[Delaunay, _core.FeatureSize] = WeakKeyDictionary()
+_latest: WeakKeyDictionary[Delaunay, _core.Interpolant] = WeakKeyDictionary()
 
 
-def interpolant(delaunay: Delaunay, edges: IntArray) -> _core.FeatureSize:
+def interpolant(delaunay: Delaunay, edges: IntArray) -> _core.Interpolant:
     """Return the smooth interpolant of edges and its axis, kept for the triangulation's next call.
 
     The local feature size and the certificate rest on the same, and it is most of their work.
@@ -406,7 +406,7 @@ def interpolant(delaunay: Delaunay, edges: IntArray) -> _core.FeatureSize:
     known = _latest.get(delaunay)
     if known is not None and known.is_of(edges):
         return known
-    made = _core.FeatureSize(delaunay._core, edges)
+    made = _core.Interpolant(delaunay._core, edges)
     _latest[delaunay] = made
     return made
 

@@ -3,7 +3,7 @@
 use crate::adjacency::{Adjacency, vertices_of_rows};
 use crate::delaunay::Delaunay;
 use crate::edges::Edges;
-use crate::feature_size::{Bend, FeatureSize};
+use crate::interpolant::{Bend, Interpolant};
 use crate::point::{Point, cross, dot, sub};
 use rayon::prelude::*;
 
@@ -24,7 +24,7 @@ pub struct Measures {
 /// The curve Voronoi vertex is where the dual of the edge meets the interpolant (paper, §5): beside the midpoint, by the
 /// height of the arc that has the mean curvature of the edge's ends. Linear time.
 #[must_use]
-pub fn measure(delaunay: &Delaunay, edges: &Edges, axis: &FeatureSize) -> Measures {
+pub fn measure(delaunay: &Delaunay, edges: &Edges, axis: &Interpolant) -> Measures {
     let curve = axis.curve();
     let vertex = vertices_of_rows(delaunay);
     // In the order of vertices, which are near each other in memory where they are in the plane; rows need not be.
@@ -51,7 +51,7 @@ pub fn measure(delaunay: &Delaunay, edges: &Edges, axis: &FeatureSize) -> Measur
 }
 
 /// The ratio of the edge from p to q.
-fn ratio(delaunay: &Delaunay, axis: &FeatureSize, [p, q]: [u32; 2]) -> f64 {
+fn ratio(delaunay: &Delaunay, axis: &Interpolant, [p, q]: [u32; 2]) -> f64 {
     if p == q || [p, q].iter().any(|&v| axis.curve().of(v).len() > 2) {
         return f64::INFINITY;
     }

@@ -6,7 +6,7 @@
 use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, rows, select, sort};
 use crate::error::Result;
-use crate::predicates::in_circle;
+use crate::exact::predicates::in_circle;
 use crate::progress::Progress;
 use rayon::prelude::*;
 

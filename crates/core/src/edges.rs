@@ -2,8 +2,8 @@
 
 use crate::delaunay::{Delaunay, Edge};
 use crate::error::Result;
+use crate::parts::split;
 use crate::progress::{Progress, Stage};
-use crate::split::split;
 use rayon::prelude::*;
 
 /// Edges as input rows: i < j in each, sorted, unique.

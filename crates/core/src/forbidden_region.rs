@@ -4,11 +4,11 @@
 //! case a point on one side is forbidden if it sees the two under more than the angle of that side.
 //! N. Amenta, M. Bern, D. Eppstein (1998), Observation 16.
 
-use crate::angle_bound::{AngleBound, OppositeDot};
-use crate::bounds::Bounds;
+use crate::exact::angle_bound::{AngleBound, OppositeDot};
+use crate::exact::predicates::orientation;
+use crate::exact::sign;
 use crate::point::{Point, cross, sub};
-use crate::predicates::orientation;
-use crate::sign;
+use crate::space::bounds::Bounds;
 use std::cmp::Ordering::{Equal, Greater, Less};
 
 /// The angles that bound the region on either side of p → q. The segment itself is always in the

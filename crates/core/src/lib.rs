@@ -6,28 +6,21 @@
 //! no global state; parallel work runs on the current rayon pool and never changes an answer.
 
 pub mod adjacency;
-pub mod angle_bound;
-pub mod angle_pair;
-pub mod bounds;
-pub mod boxes;
 pub mod certify;
 pub mod cocircular;
-pub mod constant;
 pub mod delaunay;
 pub mod edges;
 pub mod error;
-pub mod feature_size;
+pub mod exact;
 pub mod forbidden_region;
+pub mod interpolant;
 pub mod medial_axis;
 pub mod methods;
-pub mod pencil;
+pub mod parts;
 pub mod point;
-pub mod predicates;
 pub mod progress;
-pub mod sign;
-pub mod split;
+pub mod space;
 pub mod trace;
-pub mod voronoi;
 
 pub use delaunay::Delaunay;
 pub use error::{Error, Result};

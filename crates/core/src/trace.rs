@@ -2,8 +2,8 @@
 
 use crate::edges::Edges;
 use crate::error::Result;
+use crate::exact::predicates::orientation;
 use crate::point::{Point, lexicographic};
-use crate::predicates::orientation;
 use crate::progress::{Progress, Stage};
 use std::cmp::Ordering::{Equal, Greater, Less};
 use std::collections::HashMap;

@@ -5,7 +5,7 @@ mod call;
 mod delaunay;
 mod edges;
 mod errors;
-mod feature_size;
+mod interpolant;
 mod medial_axis;
 mod methods;
 mod trace;
@@ -20,7 +20,7 @@ mod _core {
     #[pymodule_export]
     use crate::edges::is_canonical;
     #[pymodule_export]
-    use crate::feature_size::FeatureSize;
+    use crate::interpolant::Interpolant;
     #[pymodule_export]
     use crate::medial_axis::medial_axis;
     #[pymodule_export]

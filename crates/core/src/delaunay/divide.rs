@@ -7,8 +7,8 @@
 
 use super::rings::{FreeSlots, HalfEdge, NONE, Rings};
 use crate::error::Result;
+use crate::exact::predicates::{Base, Sighting, is_left};
 use crate::point::{Point, lexicographic};
-use crate::predicates::{Base, Sighting, is_left};
 use crate::progress::Progress;
 
 /// Vertices below which a cell is one task, and one report of progress.

@@ -1,7 +1,7 @@
 //! The Delaunay triangulation of distinct points, exact and the same on any number of threads.
 
 mod divide;
-mod order;
+
 mod rings;
 mod sanity;
 mod stars;
@@ -10,8 +10,8 @@ mod triangles;
 use crate::error::{Error, Result};
 use crate::point::Point;
 use crate::progress::{Progress, Stage};
+use crate::space::order::{Order, order};
 use divide::{SLOTS, Vertices, triangulate};
-use order::{Order, order};
 use rings::HalfEdge;
 pub use rings::NONE;
 pub use stars::{Star, Stars};

@@ -1,7 +1,7 @@
 //! The definition of a Delaunay triangulation, checked on a finished one: shared by tests and fuzzing.
 
 use super::{Delaunay, Edge};
-use crate::predicates::{in_circle, is_left, orientation};
+use crate::exact::predicates::{in_circle, is_left, orientation};
 use std::cmp::Ordering::Equal;
 
 impl Delaunay {

@@ -5,8 +5,8 @@
 
 use super::rings::{self, HalfEdge, NONE};
 use crate::error::Result;
+use crate::parts::split;
 use crate::progress::{PACE, Progress, Stage};
-use crate::split::split;
 use rayon::prelude::*;
 
 /// Vertices that one task takes at a time.

@@ -2,8 +2,8 @@
 
 use super::Delaunay;
 use super::rings::NONE;
+use crate::exact::circumcenter::circumcenter;
 use crate::point::Point;
-use crate::voronoi::circumcenter;
 use rayon::prelude::*;
 
 impl Delaunay {

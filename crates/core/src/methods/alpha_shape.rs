@@ -3,14 +3,14 @@
 //! H. Edelsbrunner, D. G. Kirkpatrick, R. Seidel, "On the shape of a set of points in the plane",
 //! IEEE Transactions on Information Theory 29 (1983).
 
-use crate::angle_bound::OppositeDot;
 use crate::cocircular::select_closed;
 use crate::delaunay::{Delaunay, Edge};
 use crate::edges::Edges;
 use crate::error::{Error, Result};
+use crate::exact::angle_bound::OppositeDot;
+use crate::exact::sign::{self, Form, Number, exact_sign};
 use crate::point::{Point, cross, dot, sub};
 use crate::progress::Progress;
-use crate::sign::{self, Form, Number, exact_sign};
 use std::cmp::Ordering::{self, Greater, Less};
 
 /// The edges with a disk of exactly this `radius` that touches both ends and holds no point inside.

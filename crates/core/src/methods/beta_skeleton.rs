@@ -6,15 +6,15 @@
 
 use super::gamma_graph::{gamma_of, has_angles};
 use crate::adjacency::Adjacency;
-use crate::angle_bound::AngleBound;
-use crate::boxes::Boxes;
-use crate::constant::{Constant, fraction};
 use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, select};
 use crate::error::{Error, Result};
+use crate::exact::angle_bound::AngleBound;
+use crate::exact::constant::{Constant, fraction};
+use crate::exact::sign::{self, Form, Number};
 use crate::point::{Point, dot, sub};
 use crate::progress::{Progress, Stage};
-use crate::sign::{self, Form, Number};
+use crate::space::boxes::Boxes;
 use rayon::prelude::*;
 use std::cmp::Ordering::{Equal, Greater};
 

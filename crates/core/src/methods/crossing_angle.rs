@@ -4,11 +4,11 @@
 //! curves as the crust does: two disks that touch p and q, of any radii, whose circles cross at a
 //! fixed angle.
 
-use crate::angle_bound::AngleBound;
-use crate::angle_pair::AnglePair;
 use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, select};
 use crate::error::{Error, Result};
+use crate::exact::angle_bound::AngleBound;
+use crate::exact::angle_pair::AnglePair;
 use crate::progress::Progress;
 use std::cmp::Ordering::Greater;
 

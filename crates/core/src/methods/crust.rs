@@ -6,14 +6,14 @@
 //! that the smallest candidate meets.
 
 use super::one_step_crust;
-use crate::angle_pair::Angle;
 use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, select};
 use crate::error::Result;
-use crate::pencil::{Circle, Disk, Pencil, Vertex};
+use crate::exact::angle_pair::Angle;
+use crate::exact::pencil::{Circle, Disk, Pencil, Vertex};
+use crate::exact::sign::{self, Form, Number};
 use crate::point::{Point, cross, dot, sub};
 use crate::progress::Progress;
-use crate::sign::{self, Form, Number};
 use std::cmp::Ordering::{Equal, Greater, Less};
 use std::collections::HashSet;
 

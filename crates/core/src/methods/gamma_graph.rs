@@ -5,15 +5,15 @@
 //! signs of c₀ and c₁, come to this: no point on one side sees p q under more than the angle of c₀,
 //! and none on the other under more than that of c₁.
 
-use crate::angle_bound::AngleBound;
-use crate::bounds::Bounds;
-use crate::boxes::Boxes;
 use crate::cocircular::select_closed;
 use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, rows, select, sort};
 use crate::error::{Error, Result};
+use crate::exact::angle_bound::AngleBound;
 use crate::forbidden_region::ForbiddenRegion;
 use crate::progress::{Progress, Stage};
+use crate::space::bounds::Bounds;
+use crate::space::boxes::Boxes;
 use rayon::prelude::*;
 use std::cell::RefCell;
 use std::cmp::Ordering::{self, Equal, Greater, Less};

@@ -6,9 +6,9 @@
 use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, rows, sort};
 use crate::error::Result;
+use crate::exact::sign::{self, Form, Number, exact_sign};
 use crate::point::{Point, lexicographic};
 use crate::progress::{Progress, Stage};
-use crate::sign::{self, Form, Number, exact_sign};
 use rayon::prelude::*;
 use std::cmp::Ordering;
 

@@ -7,9 +7,9 @@ use crate::cocircular::diagonals;
 use crate::delaunay::Delaunay;
 use crate::edges::{Edges, rows, sort};
 use crate::error::Result;
+use crate::exact::sign::{self, Form, Number};
 use crate::point::{Point, dot, sub};
 use crate::progress::{Progress, Stage};
-use crate::sign::{self, Form, Number};
 use rayon::prelude::*;
 use std::cmp::Ordering::{self, Equal, Greater};
 

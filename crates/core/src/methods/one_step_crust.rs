@@ -2,13 +2,13 @@
 //!
 //! C. Gold and J. Snoeyink, "A One-Step Crust and Skeleton Extraction Algorithm", Algorithmica 30 (2001).
 
-use crate::angle_pair::Angle;
 use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, select};
 use crate::error::Result;
+use crate::exact::angle_pair::Angle;
+use crate::exact::sign::{self, Form, Number};
 use crate::point::Point;
 use crate::progress::Progress;
-use crate::sign::{self, Form, Number};
 use std::cmp::Ordering::{Greater, Less};
 
 /// The edges with a disk that touches both ends and holds no point, nor a center of the edge's own triangles.

@@ -4,10 +4,10 @@
 //! boundary shape representation for medical image interpretation", ECCV (1992): an edge belongs to
 //! the boundary if its dual Voronoi edge is longer.
 
-use crate::angle_pair::AnglePair;
 use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, select};
 use crate::error::Result;
+use crate::exact::angle_pair::AnglePair;
 use crate::progress::Progress;
 
 /// The Delaunay edges that are no longer than their dual Voronoi edges. O(n log n).

@@ -1,7 +1,7 @@
 //! Voronoi vertices: the circumcenters of the triangles, estimated with an error bound and exact where asked.
 
+use crate::exact::sign::{self, Form, Number, ROUNDING};
 use crate::point::{Point, cross, dot, sub};
-use crate::sign::{self, Form, Number, ROUNDING};
 
 /// A circumcenter relative to some origin, and a bound on the distance to the true one.
 #[derive(Debug, Clone, Copy)]

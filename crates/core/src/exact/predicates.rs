@@ -3,10 +3,10 @@
 //! The filters and their constants are those of J. R. Shewchuk, "Adaptive Precision Floating-Point
 //! Arithmetic and Fast Robust Geometric Predicates", Discrete & Computational Geometry 18 (1997),
 //! sections 4.3 and 4.4; the expansions are the crate `robust`'s. These are exact unless a product
-//! underflows, so coordinates that small take the integers of [`sign`](crate::sign) instead.
+//! underflows, so coordinates that small take the integers of [`sign`](crate::exact::sign) instead.
 
+use crate::exact::sign::{Form, Number, ROUNDING, exact_sign, small_differences};
 use crate::point::{Point, cross, dot, sub};
-use crate::sign::{Form, Number, ROUNDING, exact_sign, small_differences};
 use ethnum::I256;
 use std::cmp::Ordering::{self, Greater};
 
@@ -167,7 +167,7 @@ impl Form<2> for Orientation {
         2 * bits + 1
     }
     fn value<T: Number>(&self, [a, b]: &[[T; 2]; 2]) -> T {
-        crate::sign::cross(a, b)
+        crate::exact::sign::cross(a, b)
     }
 }
 
@@ -180,7 +180,7 @@ impl Form<3> for InCircle {
     }
     fn value<T: Number>(&self, [a, b, c]: &[[T; 2]; 3]) -> T {
         let term = |u: &[T; 2], v: &[T; 2], w: &[T; 2]| {
-            crate::sign::dot(u, u).times(&crate::sign::cross(v, w))
+            crate::exact::sign::dot(u, u).times(&crate::exact::sign::cross(v, w))
         };
         term(a, b, c).plus(&term(b, c, a)).plus(&term(c, a, b))
     }

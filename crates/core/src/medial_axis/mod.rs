@@ -7,13 +7,13 @@ use crate::adjacency::{Adjacency, vertices_of_rows};
 use crate::delaunay::{Delaunay, NONE};
 use crate::edges::Edges;
 use crate::error::Result;
+use crate::exact::circumcenter::{Center, circumcenter};
+use crate::exact::predicates::in_circle;
+use crate::exact::sign::ROUNDING;
+use crate::parts::split;
 use crate::point::{Point, length, lexicographic, sub};
-use crate::predicates::in_circle;
 use crate::progress::Progress;
-use crate::sign::ROUNDING;
-use crate::split::split;
 use crate::trace::trace;
-use crate::voronoi::{Center, circumcenter};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 

@@ -4,7 +4,7 @@
 //! one has as its curvature the maximum of that over the curve; as x → s the fraction tends to the curve's own curvature.
 //! A disk around a point of the Voronoi cell of s is empty, so only the neighbors of s in the triangulation count.
 
-use super::interpolant::Bend;
+use super::bend::Bend;
 use crate::delaunay::Delaunay;
 use crate::point::{Point, dot, sub};
 
@@ -124,7 +124,7 @@ fn tip(point: Point, bend: &Bend, sign: f64, far: f64) -> Option<Disk> {
         return None;
     }
     let place = bend.place(s);
-    let normal = super::interpolant::turned(bend.normal(), bend.turn(s));
+    let normal = super::bend::turned(bend.normal(), bend.turn(s));
     disk([point[0] + place[0], point[1] + place[1]], normal, sign * curvature, curvature)
 }
 

@@ -1,12 +1,12 @@
 //! The medial axis of the interpolant: centers of largest empty disks, linked along the curve.
 
+use super::bend::Bend;
 use super::disks::{Disk, Disks, disks};
-use super::interpolant::Bend;
-use super::segment::{Segment, push};
 use crate::delaunay::Delaunay;
 use crate::error::Result;
 use crate::point::{dot, sub};
 use crate::progress::Progress;
+use crate::space::segment::{Segment, push};
 use rayon::prelude::*;
 
 /// Centers farther apart than this part of the smaller radius are not linked: the axis may turn in between.

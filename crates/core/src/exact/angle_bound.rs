@@ -4,9 +4,9 @@
 //! this disk" says "no point on this side sees the edge under a larger angle". β and γ fix that
 //! angle by its sine.
 
-use crate::constant::{Constant, fraction};
+use crate::exact::constant::{Constant, fraction};
+use crate::exact::sign::{self, Form, Number};
 use crate::point::{Point, cross, dot, sub};
-use crate::sign::{self, Form, Number};
 use num_bigint::BigInt;
 use std::cmp::Ordering::{self, Equal, Greater, Less};
 

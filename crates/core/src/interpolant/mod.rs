@@ -5,11 +5,10 @@
 //! interpolant there, linked along the curve, and the centers of curvature where the curvature is largest, at the tips.
 
 mod axis;
+mod bend;
 mod disks;
-mod interpolant;
-mod segment;
+
 mod stencil;
-mod tree;
 
 use crate::adjacency::Adjacency;
 use crate::delaunay::Delaunay;
@@ -17,19 +16,19 @@ use crate::edges::Edges;
 use crate::error::Result;
 use crate::point::Point;
 use crate::progress::Progress;
+use crate::space::tree::Tree;
 use axis::axis;
-pub use interpolant::Bend;
-use interpolant::bends;
+pub use bend::Bend;
+use bend::bends;
 use rayon::prelude::*;
 use stencil::{Scale, stencil};
-use tree::Tree;
 
 /// Queries that one task takes at a time.
 const GRAIN: usize = 1 << 12;
 
 /// The smooth interpolant of edges, its medial axis, and the local feature size at the vertices.
 #[derive(Debug)]
-pub struct FeatureSize {
+pub struct Interpolant {
     curve: Adjacency,
     bends: Vec<Option<Bend>>,
     tree: Tree,
@@ -37,7 +36,7 @@ pub struct FeatureSize {
     nearest: Vec<(u32, f64)>,
 }
 
-impl FeatureSize {
+impl Interpolant {
     /// Of the curves along `edges`, which are canonical. O(n log n).
     ///
     /// # Errors

@@ -4,9 +4,9 @@
 //! left by 90°. A site v to the left of p → q is strictly inside exactly for t > τ(v), one to the right exactly for
 //! t < τ(v), with τ(v) = (v−p)·(v−q) / 2 (q−p)×(v−p). The paper's disks "touching s₁ and s₂" are this pencil.
 
+use crate::exact::circumcenter::{Center, HomogeneousCenter};
+use crate::exact::sign::{self, Form, Number, ROUNDING};
 use crate::point::{Point, cross, dot, sub};
-use crate::sign::{self, Form, Number, ROUNDING};
-use crate::voronoi::{Center, HomogeneousCenter};
 use std::cmp::Ordering::{self, Equal, Greater, Less};
 
 /// The circles through `p` and `q`.

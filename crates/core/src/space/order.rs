@@ -4,11 +4,11 @@
 //! a vertical or a horizontal line; `divide` cuts there. G. M. Morton, "A computer oriented geodetic
 //! data base", IBM, 1966.
 
-use crate::bounds::Bounds;
 use crate::error::{Error, Result};
+use crate::parts::split;
 use crate::point::{Point, lexicographic};
 use crate::progress::{PACE, Progress, Stage};
-use crate::split::split;
+use crate::space::bounds::Bounds;
 use rayon::prelude::*;
 
 /// Points in one bucket of the first pass of the sort, about: they should fit in the first cache.

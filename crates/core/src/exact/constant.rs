@@ -1,9 +1,9 @@
-//! Whole numbers of any size as coefficients of a [`Form`](crate::sign::Form).
+//! Whole numbers of any size as coefficients of a [`Form`](crate::exact::sign::Form).
 //!
 //! A parameter such as β is a double, so a ratio of whole numbers: a form multiplied by the
 //! denominator has whole coefficients, and its sign is exact in the parameter, too.
 
-use crate::sign::{Number, decompose};
+use crate::exact::sign::{Number, decompose};
 use num_bigint::{BigInt, Sign};
 
 /// A whole number, kept as digits of 32 bits, the leading one first.

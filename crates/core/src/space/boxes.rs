@@ -3,8 +3,8 @@
 //! The vertices lie along a space-filling curve, so those of successive numbers lie close together,
 //! and the tree needs no order of its own: a node is a range of vertices and their bounding box.
 
-use crate::bounds::Bounds;
 use crate::point::Point;
+use crate::space::bounds::Bounds;
 use std::ops::Range;
 
 /// Vertices in a leaf.

@@ -4,12 +4,12 @@
 //! lets one see, samples nearer than √(4 ε D/10⁻⁴) are passed over, so that the error is below 10⁻⁴ of the curvature of the extent D.
 
 use crate::adjacency::Adjacency;
-use crate::bounds::Bounds;
 use crate::delaunay::Delaunay;
 use crate::edges::Edges;
 use crate::error::Result;
 use crate::point::{Point, cross, dot, sub};
 use crate::progress::Progress;
+use crate::space::bounds::Bounds;
 use crate::trace::trace;
 use std::borrow::Cow;
 

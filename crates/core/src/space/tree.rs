@@ -3,9 +3,9 @@
 //! The packed tree of I. Kamel and C. Faloutsos, "On Packing R-trees" (1993): segments sorted along a Hilbert curve, each box
 //! over `FAN` successive ones. Built in linear time after the sort.
 
-use super::segment::{Segment, push};
-use crate::bounds::Bounds;
 use crate::point::{Point, dot, sub};
+use crate::space::bounds::Bounds;
+use crate::space::segment::{Segment, push};
 use rayon::prelude::*;
 use std::ops::Range;
 

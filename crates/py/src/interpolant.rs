@@ -15,14 +15,14 @@ type Floats<'py> = Bound<'py, PyArray1<f64>>;
 
 /// The local feature size of samples and edges, made once and read by many.
 #[pyclass(frozen, module = "crustline._core")]
-pub struct FeatureSize {
-    inner: core::feature_size::FeatureSize,
+pub struct Interpolant {
+    inner: core::interpolant::Interpolant,
     edges: Edges,
     delaunay: Py<Delaunay>,
 }
 
 #[pymethods]
-impl FeatureSize {
+impl Interpolant {
     #[new]
     fn new(
         py: Python<'_>,
@@ -34,7 +34,7 @@ impl FeatureSize {
         let edges = canonical(py, rows(py, &edges)?, size)?;
         let call = Call { size, threads: None, callback: None };
         let inner = call.run(py, |progress| {
-            core::feature_size::FeatureSize::new(triangulation, &edges, progress)
+            core::interpolant::Interpolant::new(triangulation, &edges, progress)
         })?;
         Ok(Self { inner, edges, delaunay })
     }

@@ -1,8 +1,8 @@
 //! Questions about the two angles opposite to an edge, as polynomials in their cotangents.
 
-use crate::constant::{Constant, fraction};
+use crate::exact::constant::{Constant, fraction};
+use crate::exact::sign::{self, Form, Number};
 use crate::point::{Point, sub};
-use crate::sign::{self, Form, Number};
 use num_bigint::BigInt;
 use std::cmp::Ordering::Less;
 

@@ -1,0 +1,9 @@
+//! Exact decisions: the sign of a polynomial in the coordinates, and what is built on it.
+
+pub mod angle_bound;
+pub mod angle_pair;
+pub mod circumcenter;
+pub mod constant;
+pub mod pencil;
+pub mod predicates;
+pub mod sign;
