@@ -3,9 +3,14 @@
 use crate::adjacency::{Adjacency, vertices_of_rows};
 use crate::delaunay::Delaunay;
 use crate::edges::Edges;
+use crate::error::Result;
 use crate::interpolant::{Bend, Interpolant};
 use crate::point::{Point, cross, dot, sub};
+use crate::progress::{Progress, Stage};
 use rayon::prelude::*;
+
+/// Edges that one task measures at a time.
+const GRAIN: usize = 1 << 12;
 
 /// The measures of edges and rows.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -23,9 +28,17 @@ pub struct Measures {
 ///
 /// The curve Voronoi vertex is where the dual of the edge meets the interpolant (paper, §5): beside the midpoint, by the
 /// height of the arc that has the mean curvature of the edge's ends. Linear time.
-#[must_use]
-pub fn measure(delaunay: &Delaunay, edges: &Edges, axis: &Interpolant) -> Measures {
+///
+/// # Errors
+/// A cancelled `progress`.
+pub fn measure(
+    delaunay: &Delaunay,
+    edges: &Edges,
+    axis: &Interpolant,
+    progress: &Progress,
+) -> Result<Measures> {
     let curve = axis.curve();
+    progress.enter(Stage::Measure, 2 * curve.edges().len())?;
     let vertex = vertices_of_rows(delaunay);
     // In the order of vertices, which are near each other in memory where they are in the plane; rows need not be.
     let rows = delaunay.rows();
@@ -33,7 +46,12 @@ pub fn measure(delaunay: &Delaunay, edges: &Edges, axis: &Interpolant) -> Measur
         let is_turned = rows[p as usize] > rows[q as usize];
         ratio(delaunay, axis, if is_turned { [q, p] } else { [p, q] })
     };
-    let ratios: Vec<f64> = curve.edges().par_iter().map(in_order).collect();
+    let part = |edges: &[[u32; 2]]| {
+        progress.advance(edges.len())?;
+        Ok(edges.iter().map(in_order).collect())
+    };
+    let ratios = curve.edges().par_chunks(GRAIN).map(part).collect::<Result<Vec<Vec<f64>>>>()?;
+    let ratios = ratios.concat();
     let vertices = (0..delaunay.points().len() as u32).into_par_iter();
     let turns: Vec<(f64, u32)> =
         vertices.map(|v| (turn(delaunay, curve, v), curve.of(v).len() as u32)).collect();
@@ -47,7 +65,8 @@ pub fn measure(delaunay: &Delaunay, edges: &Edges, axis: &Interpolant) -> Measur
         }
     };
     let (turns, degrees) = vertex.par_iter().map(|&v| turns[v as usize]).unzip();
-    Measures { ratios: edges.par_iter().map(of_rows).collect(), turns, degrees }
+    progress.advance(0)?;
+    Ok(Measures { ratios: edges.par_iter().map(of_rows).collect(), turns, degrees })
 }
 
 /// The ratio of the edge from p to q.

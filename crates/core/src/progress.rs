@@ -4,7 +4,8 @@ use crate::error::{Error, Result};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 
 /// The stages of a call, in the order in which they run.
-pub const STAGES: [&str; 5] = ["sort", "triangulate", "stars", "select", "trace"];
+pub const STAGES: [&str; 8] =
+    ["sort", "triangulate", "stars", "select", "trace", "axis", "interpolate", "measure"];
 
 /// How many points a loop may pass between two looks at whether to stop: some milliseconds.
 pub const PACE: usize = 1 << 19;
@@ -23,6 +24,12 @@ pub enum Stage {
     Select,
     /// Joining edges into curves.
     Trace,
+    /// Collecting the medial axis of samples.
+    Axis,
+    /// Fitting the smooth interpolant, and finding its axis.
+    Interpolate,
+    /// Measuring edges and points for a certificate.
+    Measure,
 }
 
 /// The state of a running call: shared by reference, written by the workers, read by the caller.

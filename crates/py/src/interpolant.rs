@@ -24,15 +24,18 @@ pub struct Interpolant {
 #[pymethods]
 impl Interpolant {
     #[new]
+    #[pyo3(signature = (delaunay, edges, threads=None, progress=None))]
     fn new(
         py: Python<'_>,
         delaunay: Py<Delaunay>,
         edges: PyReadonlyArray2<'_, i64>,
+        threads: Option<usize>,
+        progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
         let triangulation = delaunay.get().core();
         let size = triangulation.input_len();
         let edges = canonical(py, rows(py, &edges)?, size)?;
-        let call = Call { size, threads: None, callback: None };
+        let call = Call { size, threads, callback: progress };
         let inner = call.run(py, |progress| {
             core::interpolant::Interpolant::new(triangulation, &edges, progress)
         })?;
@@ -47,9 +50,16 @@ impl Interpolant {
     }
 
     /// Are the edges the β-skeleton of circles of the points?
-    fn is_beta_skeleton(&self, py: Python<'_>, beta: f64) -> PyResult<bool> {
+    #[pyo3(signature = (beta, threads=None, progress=None))]
+    fn is_beta_skeleton(
+        &self,
+        py: Python<'_>,
+        beta: f64,
+        threads: Option<usize>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<bool> {
         let delaunay = self.delaunay.get().core();
-        let call = Call { size: delaunay.input_len(), threads: None, callback: None };
+        let call = Call { size: delaunay.input_len(), threads, callback: progress };
         call.run(py, |progress| {
             if delaunay.duplicates().is_empty() {
                 is_beta_skeleton(delaunay, beta, self.inner.curve(), progress)
@@ -66,14 +76,19 @@ impl Interpolant {
     }
 
     /// The sampling ratio of each edge, and the turn and the degree of each row.
+    #[pyo3(signature = (threads=None, progress=None))]
+    #[allow(clippy::type_complexity)] // The tuple is in the order of its documentation.
     fn measures<'py>(
         &self,
         py: Python<'py>,
-    ) -> (Floats<'py>, Floats<'py>, Bound<'py, PyArray1<i64>>) {
+        threads: Option<usize>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<(Floats<'py>, Floats<'py>, Bound<'py, PyArray1<i64>>)> {
         let delaunay = self.delaunay.get().core();
+        let call = Call { size: delaunay.input_len(), threads, callback: progress };
         let Measures { ratios, turns, degrees } =
-            py.detach(|| measure(delaunay, &self.edges, &self.inner));
+            call.run(py, |progress| measure(delaunay, &self.edges, &self.inner, progress))?;
         let degrees = integers(py, degrees.into_iter().map(i64::from));
-        (values(py, ratios), values(py, turns), degrees)
+        Ok((values(py, ratios), values(py, turns), degrees))
     }
 }

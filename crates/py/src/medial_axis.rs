@@ -11,14 +11,17 @@ use pyo3::types::PyDict;
 
 /// The medial axis as a dictionary of arrays, by the names of the fields.
 #[pyfunction]
+#[pyo3(signature = (delaunay, edges, threads=None, progress=None))]
 pub fn medial_axis<'py>(
     py: Python<'py>,
     delaunay: &Delaunay,
     edges: PyReadonlyArray2<'py, i64>,
+    threads: Option<usize>,
+    progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let core = delaunay.core();
     let edges = canonical(py, rows(py, &edges)?, core.input_len())?;
-    let call = Call { size: core.input_len(), threads: None, callback: None };
+    let call = Call { size: core.input_len(), threads, callback: progress };
     let MedialAxis {
         vertices,
         radii,

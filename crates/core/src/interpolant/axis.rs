@@ -30,7 +30,7 @@ pub fn axis(
         let end = (start + GRAIN).min(bends.len());
         let mut segments = Vec::new();
         Part::new(delaunay, bends, start as u32..end as u32).collect(&mut segments);
-        progress.advance(0)?;
+        progress.advance(end - start)?;
         Ok(segments)
     };
     Ok(starts.into_par_iter().map(part).collect::<Result<Vec<_>>>()?.concat())

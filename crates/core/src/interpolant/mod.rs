@@ -15,7 +15,7 @@ use crate::delaunay::Delaunay;
 use crate::edges::Edges;
 use crate::error::Result;
 use crate::point::Point;
-use crate::progress::Progress;
+use crate::progress::{Progress, Stage};
 use crate::space::tree::Tree;
 use axis::axis;
 pub use bend::Bend;
@@ -44,11 +44,12 @@ impl Interpolant {
     pub fn new(delaunay: &Delaunay, edges: &Edges, progress: &Progress) -> Result<Self> {
         let curve = Adjacency::new(delaunay, edges);
         let scale = Scale::of(delaunay.points());
-        let bends = bends(delaunay, &*stencil(delaunay, &curve, &scale, progress)?, &scale);
-        progress.advance(0)?;
+        let stencil = stencil(delaunay, &curve, &scale, progress)?;
+        progress.enter(Stage::Interpolate, 3 * delaunay.points().len())?;
+        let bends = bends(delaunay, &stencil, &scale);
+        progress.advance(delaunay.points().len())?;
         let axis = axis(delaunay, &bends, progress)?;
         let tree = Tree::new(&axis, scale.bounds);
-        progress.advance(0)?;
         let nearest = nearest(&tree, delaunay.points(), progress)?;
         Ok(Self { curve, bends, tree, nearest })
     }
@@ -94,7 +95,7 @@ impl Interpolant {
 fn nearest(tree: &Tree, places: &[Point], progress: &Progress) -> Result<Vec<(u32, f64)>> {
     let part = |places: &[Point]| {
         let found = tree.nearest(places);
-        progress.advance(0)?;
+        progress.advance(places.len())?;
         Ok(found)
     };
     Ok(places.par_chunks(GRAIN).map(part).collect::<Result<Vec<_>>>()?.concat())

@@ -12,7 +12,7 @@ use crate::exact::predicates::in_circle;
 use crate::exact::sign::ROUNDING;
 use crate::parts::split;
 use crate::point::{Point, length, lexicographic, sub};
-use crate::progress::Progress;
+use crate::progress::{Progress, Stage};
 use crate::trace::trace;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -52,17 +52,22 @@ pub fn medial_axis(delaunay: &Delaunay, edges: &Edges, progress: &Progress) -> R
     if triangles.is_empty() {
         return Ok(of_line(delaunay, &curve));
     }
-    let wedges = delaunay.wedge_triangles();
-    progress.advance(0)?;
     let flips = flipping(delaunay, &curve, progress)?;
+    progress.enter(Stage::Axis, STEPS)?;
+    let wedges = delaunay.wedge_triangles();
+    progress.advance(1)?;
     let circles: Vec<Circle> = triangles.par_iter().map(|t| Circle::new(delaunay, t)).collect();
     let mesh = Mesh { delaunay, circles: &circles, wedges: &wedges, curve: &curve, flips: &flips };
+    progress.advance(1)?;
     let centers = one_for_each_circle(&mesh);
-    progress.advance(0)?;
+    progress.advance(1)?;
     let inside = inside(&mesh);
-    progress.advance(0)?;
+    progress.advance(1)?;
     Ok(collect(&mesh, &inside, &centers))
 }
+
+/// Steps of about the same time, which progress counts.
+const STEPS: usize = 5;
 
 /// The triangulation as stars, with curves in it.
 struct Mesh<'a> {
