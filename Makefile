@@ -63,7 +63,7 @@ bench-quick: build ## The same in under a minute, to the terminal.
 	$(BIN)/pip install --quiet --disable-pip-version-check -r benchmarks/requirements.txt
 	$(BIN)/python -m benchmarks.run --quick
 
-bench-instructions: ## Count instructions with callgrind and fail past 5 % more than stored.
+bench-instructions: ## Count instructions with callgrind and and bytes, and fail past 2 % more than stored.
 	$(PYTHON) -m benchmarks.instructions
 
 # What cargo-fuzz would pass, so that a stable toolchain serves.

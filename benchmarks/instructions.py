@@ -1,7 +1,9 @@
-"""Count the instructions of the core, which no noise moves: `python -m benchmarks.instructions`.
+"""Count instructions and bytes of the core, without noise: `python -m benchmarks.instructions`.
 
-Runs the core's example `crust_once DISTRIBUTION N` under callgrind, and fails if a count is more
-than 5 % above the one stored in instructions.json; `--update` stores the counts anew.
+Runs the core's example `crust_once` under callgrind and under dhat, on one thread, and fails if a
+count is more than 2 % above the one stored in instructions.json; `--update` stores the counts anew.
+The crust is counted with its triangulation and the points' making, the medial axis and the
+certificate without: what they add to the crust. Bytes are the most that are allocated at one time.
 """
 
 import argparse
@@ -13,13 +15,19 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 STORED = HERE / "instructions.json"
-TOLERANCE = 0.05
-CASES = (("uniform", 20_000), ("curves", 20_000), ("lattice", 20_000), ("circle", 20_000))
+TOLERANCE = 0.02
+N = 20_000
+DISTRIBUTIONS = {
+    "crust": ("uniform", "curves", "lattice", "circle"),
+    "axis": ("uniform", "curves"),
+    "certificate": ("uniform", "curves"),
+}
 BUILD_EXAMPLE = (
     *("cargo", "build", "--release", "--quiet", "--package", "crustline-core"),
     *("--example", "crust_once", "--message-format", "json"),
 )
 CALLGRIND = ("valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null")
+DHAT = ("valgrind", "--tool=dhat", "--dhat-out-file=/dev/null")
 
 
 def build_example() -> str:
@@ -31,22 +39,35 @@ def build_example() -> str:
     return str(next(m["executable"] for m in messages if m.get("executable")))
 
 
-def count(program: str, distribution: str, n: int) -> int:
-    """Return how many instructions one crust takes, on one thread, the points' making included."""
-    command = (*CALLGRIND, program, distribution, str(n))
+def report(tool: tuple[str, ...], before: str, program: str, *arguments: str) -> int:
+    """Run the program under a tool, and return the number that it reports after `before`."""
+    command = (*tool, program, *arguments)
     environment = os.environ | {"RAYON_NUM_THREADS": "1"}
     done = subprocess.run(command, env=environment, check=True, capture_output=True, text=True)
-    return int(done.stderr.rpartition("Collected : ")[2].split()[0])
+    return int(done.stderr.rpartition(before)[2].split()[0].replace(",", ""))
+
+
+def counts(program: str) -> dict[str, int]:
+    """Return all counts by what is counted: the work, the distribution, the unit."""
+    found = {}
+    for work, distributions in DISTRIBUTIONS.items():
+        for name in distributions:
+            asked = (name, str(N), "1", work)
+            instructions = report(CALLGRIND, "Collected : ", program, *asked)
+            own = instructions - found.get(f"crust {name} instructions", 0)
+            found[f"{work} {name} instructions"] = own
+            found[f"{work} {name} bytes"] = report(DHAT, "At t-gmax: ", program, *asked)
+    return found
 
 
 def is_regression(case: str, counted: int, stored: int | None) -> bool:
     """Print a line for one case, and return whether its count grew past the tolerance."""
     if stored is None:
-        print(f"{case}: {counted:,} instructions, none stored; run again with --update")
+        print(f"{case}: {counted:,}, none stored; run again with --update")
         return True
     change = counted / stored - 1
     verdict = "FAIL" if change > TOLERANCE else "ok"
-    print(f"{case}: {counted:,} instructions, {change:+.2%} of the stored {stored:,}: {verdict}")
+    print(f"{case}: {counted:,}, {change:+.2%} of the stored {stored:,}: {verdict}")
     return change > TOLERANCE
 
 
@@ -54,12 +75,11 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--update", action="store_true", help="store the counts anew")
     update = parser.parse_args().update
-    program = build_example()
-    counts = {f"{name} {n}": count(program, name, n) for name, n in CASES}
+    counted = counts(build_example())
     if update:
-        STORED.write_text(json.dumps(counts, indent=1) + "\n")
+        STORED.write_text(json.dumps(counted, indent=1) + "\n")
     stored = json.loads(STORED.read_text()) if STORED.exists() else {}
-    return sum(is_regression(case, counted, stored.get(case)) for case, counted in counts.items())
+    return sum(is_regression(case, count, stored.get(case)) for case, count in counted.items())
 
 
 if __name__ == "__main__":

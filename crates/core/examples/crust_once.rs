@@ -1,7 +1,10 @@
-//! Build one triangulation or crust of a generated set and print how long each stage took.
+//! Build one triangulation and crust of a generated set, and what is asked for after it, and print how long each took.
 //!
-//! `cargo run --release --example crust_once -- curves 1000000 [threads]`
+//! `cargo run --release --example crust_once -- curves 1000000 [threads] [axis] [certificate]`
 
+use crustline_core::certify::measure;
+use crustline_core::interpolant::Interpolant;
+use crustline_core::medial_axis::medial_axis;
 use crustline_core::methods::crust;
 use crustline_core::{Delaunay, Point, Progress};
 use std::time::Instant;
@@ -65,21 +68,41 @@ fn points(kind: &str, count: usize) -> Vec<Point> {
     }
 }
 
+/// Do `work` and print how long it took, and how large `size` says that its result is.
+fn timed<T>(name: &str, work: impl FnOnce() -> T, size: impl FnOnce(&T) -> usize) -> T {
+    let start = Instant::now();
+    let result = work();
+    println!("{name} {:.3} s, {}", start.elapsed().as_secs_f64(), size(&result));
+    result
+}
+
+fn run(points: &[Point], wanted: &[String]) {
+    let progress = Progress::default();
+    let wants = |name: &str| wanted.iter().any(|given| given == name);
+    let delaunay = timed(
+        "delaunay",
+        || Delaunay::new(points, &progress).expect("finite points"),
+        |delaunay| delaunay.stars().half_edges(),
+    );
+    let edges = timed("crust", || crust(&delaunay, &progress).expect("no one cancels"), Vec::len);
+    if wants("axis") {
+        let axis = || medial_axis(&delaunay, &edges, &progress).expect("no one cancels");
+        timed("axis", axis, |axis| axis.edges.len());
+    }
+    if wants("certificate") {
+        let certificate = || {
+            let interpolant =
+                Interpolant::new(&delaunay, &edges, &progress).expect("no one cancels");
+            measure(&delaunay, &edges, &interpolant, &progress).expect("no one cancels")
+        };
+        timed("certificate", certificate, |measures| measures.ratios.len());
+    }
+}
+
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
     let points = points(&arguments[1], arguments[2].parse().expect("a number of points"));
     let threads = arguments.get(3).map_or(1, |n| n.parse().expect("a number of threads"));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-    pool.install(|| {
-        let start = Instant::now();
-        let delaunay = Delaunay::new(&points, &Progress::default()).expect("finite points");
-        println!(
-            "delaunay {:.3} s, {} half-edges",
-            start.elapsed().as_secs_f64(),
-            delaunay.stars().half_edges()
-        );
-        let start = Instant::now();
-        let edges = crust(&delaunay, &Progress::default()).expect("no one cancels");
-        println!("crust {:.3} s, {} edges", start.elapsed().as_secs_f64(), edges.len());
-    });
+    pool.install(|| run(&points, arguments.get(4..).unwrap_or_default()));
 }

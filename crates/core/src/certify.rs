@@ -5,12 +5,10 @@ use crate::delaunay::Delaunay;
 use crate::edges::Edges;
 use crate::error::Result;
 use crate::interpolant::{Bend, Interpolant};
+use crate::parts::map;
 use crate::point::{Point, cross, dot, sub};
 use crate::progress::{Progress, Stage};
 use rayon::prelude::*;
-
-/// Edges that one task measures at a time.
-const GRAIN: usize = 1 << 12;
 
 /// The measures of edges and rows.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -38,7 +36,7 @@ pub fn measure(
     progress: &Progress,
 ) -> Result<Measures> {
     let curve = axis.curve();
-    progress.enter(Stage::Measure, 2 * curve.edges().len())?;
+    progress.enter(Stage::Measure, 2 * edges.len() + delaunay.points().len())?;
     let vertex = vertices_of_rows(delaunay);
     // In the order of vertices, which are near each other in memory where they are in the plane; rows need not be.
     let rows = delaunay.rows();
@@ -46,15 +44,10 @@ pub fn measure(
         let is_turned = rows[p as usize] > rows[q as usize];
         ratio(delaunay, axis, if is_turned { [q, p] } else { [p, q] })
     };
-    let part = |edges: &[[u32; 2]]| {
-        progress.advance(edges.len())?;
-        Ok(edges.iter().map(in_order).collect())
-    };
-    let ratios = curve.edges().par_chunks(GRAIN).map(part).collect::<Result<Vec<Vec<f64>>>>()?;
-    let ratios = ratios.concat();
-    let vertices = (0..delaunay.points().len() as u32).into_par_iter();
-    let turns: Vec<(f64, u32)> =
-        vertices.map(|v| (turn(delaunay, curve, v), curve.of(v).len() as u32)).collect();
+    let own = curve.edges();
+    let ratios = map(own.len(), 0.0, progress, |k| in_order(&own[k]))?;
+    let turn = |v: usize| (turn(delaunay, curve, v as u32), curve.of(v as u32).len() as u32);
+    let turns = map(delaunay.points().len(), (0.0, 0), progress, turn)?;
     let is_distinct = delaunay.duplicates().is_empty();
     let of_rows = |edge: &[u32; 2]| {
         let ends = edge.map(|row| vertex[row as usize]);
@@ -65,8 +58,8 @@ pub fn measure(
         }
     };
     let (turns, degrees) = vertex.par_iter().map(|&v| turns[v as usize]).unzip();
-    progress.advance(0)?;
-    Ok(Measures { ratios: edges.par_iter().map(of_rows).collect(), turns, degrees })
+    let ratios = map(edges.len(), 0.0, progress, |k| of_rows(&edges[k]))?;
+    Ok(Measures { ratios, turns, degrees })
 }
 
 /// The ratio of the edge from p to q.
