@@ -290,7 +290,7 @@ def feature_size_errors(name: str) -> list[Rows]:
         per_start = []
         for seed in range(STARTS):
             sample = cl.r_sample(curve, r, seed=seed)
-            true = cl.local_feature_size(curve, sample.t)
+            true = curve.local_feature_size(sample.t)
             per_start.append(cl.local_feature_size(sample.points, sample.edges) / true - 1)
         errors.append(np.concatenate(per_start))
     return errors

@@ -160,7 +160,7 @@ def figure_5() -> Figure:
     (green), not to m′, the center of the largest empty disk that is tangent at p: here 0.57
     and not 0.74.
 
-    Made by `SmoothCurve.medial_axis`, `SmoothCurve.normal`, `cl.local_feature_size`."""
+    Made by `SmoothCurve.medial_axis`, `SmoothCurve.normal`, `SmoothCurve.local_feature_size`."""
     curve, t = shapes.trefoil(4, 0.1).moved(angle=math.pi / 4), 0.6437
     p, far = curve.point(t), _tangent_center(curve, t)
     near = _nearest_on_axis(curve, p)
@@ -177,7 +177,7 @@ def figure_5() -> Figure:
     _write(ax, "p", p, (-4, -16))
     _write(ax, "m′", far, (-24, -6))
     _write(ax, "m", near, (7, -2))
-    lfs = float(cl.local_feature_size(curve, t))
+    lfs = float(curve.local_feature_size(t))
     _write(ax, f"{lfs:.2f}", (p + near) / 2, (8, -10), VERMILLION)
     _write(ax, f"{radius:.2f}", (p + far) / 2, (-32, 0), BLUE)
     _view(ax, box)

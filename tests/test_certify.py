@@ -13,8 +13,6 @@ from numpy.typing import NDArray
 import generators
 from crustline import Delaunay, InputError, beta_skeleton, crust, nn_crust
 from crustline.certify import MARGIN, Certificate, certify
-from crustline.feature_size import local_feature_size, nearest_site
-from crustline.sampling import r_sample
 from crustline.shapes import (
     SmoothCurve,
     blob,
@@ -24,6 +22,8 @@ from crustline.shapes import (
     trefoil,
     two_octagons,
 )
+from crustline.shapes.nearest import nearest_site
+from crustline.shapes.sampling import r_sample
 from crustline.theory import guaranteed_r, sample_angle
 
 Random = np.random.Generator
@@ -68,7 +68,7 @@ class Sampled:
         self.curve, self.loops = curve, len(curve.loops)
         self.t = np.arange(GRID * self.loops) / (GRID * self.loops)
         self.points = curve.point(self.t)
-        self.sizes = local_feature_size(curve, self.t, rtol=1e-3)
+        self.sizes = curve.local_feature_size(self.t, rtol=1e-3)
 
     def take(self, r: float, mode: int, rng: Random) -> NDArray[np.float64]:
         """Return t of samples: even in arc length over LFS, with random gaps, or jittered."""

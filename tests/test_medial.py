@@ -10,10 +10,9 @@ from numpy.typing import NDArray
 
 import generators
 from crustline import Delaunay, InputError, crust
-from crustline.feature_size import local_feature_size
-from crustline.medial import MedialAxis, feature_size_of_samples, medial_axis
-from crustline.sampling import r_sample
+from crustline.medial import MedialAxis, local_feature_size, medial_axis
 from crustline.shapes import SmoothCurve, blob, circle, ellipse, stadium
+from crustline.shapes.sampling import r_sample
 
 SEEDS = range(40)
 
@@ -152,7 +151,7 @@ def test_a_repeated_row_changes_nothing_but_numbers() -> None:
     twice = medial_axis(points, moved)
     assert (once.samples == twice.samples).all()
     assert (once.vertices == twice.vertices).all()
-    sizes = feature_size_of_samples(points, moved)
+    sizes = local_feature_size(points, moved)
     assert (sizes[n:] == sizes[:5]).all()
 
 
@@ -240,8 +239,8 @@ def test_it_does_not_depend_on_the_order_of_the_rows(seed: int) -> None:
     sort = np.lexsort((key[:, 1], key[:, 0]))
     assert (key[sort] == one.samples).all()
     assert (other.inner[sort] == one.inner).all()
-    sizes = feature_size_of_samples(sample.points, sample.edges)
-    moved = feature_size_of_samples(sample.points[order], back[sample.edges])
+    sizes = local_feature_size(sample.points, sample.edges)
+    moved = local_feature_size(sample.points[order], back[sample.edges])
     np.testing.assert_allclose(moved, sizes[order], rtol=1e-3)
 
 
@@ -264,8 +263,8 @@ def test_estimate_at_a_fifth_is_within_a_tenth_in_the_median(name: str, mode: st
 
 def errors(curve: SmoothCurve, r: float, seed: int, mode: str = "sparsest") -> NDArray[np.float64]:
     sample = r_sample(curve, r, seed=seed, mode=mode)
-    estimate = feature_size_of_samples(sample.points, sample.edges)
-    return estimate / local_feature_size(curve, sample.t) - 1
+    estimate = local_feature_size(sample.points, sample.edges)
+    return estimate / curve.local_feature_size(sample.t) - 1
 
 
 @pytest.mark.parametrize("name", ["ellipse 2", "ellipse 6", "blob 0", "blob 1", "blob 3"])
@@ -276,12 +275,12 @@ def test_estimate_converges_at_least_with_the_square_of_r(name: str) -> None:
 
 def test_estimate_at_isolated_points_branches_and_along_a_line() -> None:
     points = np.array([(0, 0), (1, 0), (2, 0.1), (1, 1), (1, -1), (5, 5)], float)
-    sizes = feature_size_of_samples(points, [(0, 1), (1, 2), (1, 3), (1, 4)])
+    sizes = local_feature_size(points, [(0, 1), (1, 2), (1, 3), (1, 4)])
     assert sizes[1] == 0
     assert np.isnan(sizes[5])
-    line = feature_size_of_samples([(0, 0), (1, 0), (2, 0)], [(0, 1), (1, 2)])
+    line = local_feature_size([(0, 0), (1, 0), (2, 0)], [(0, 1), (1, 2)])
     assert np.isinf(line).all()
-    assert feature_size_of_samples(np.empty((0, 2)), []).shape == (0,)
+    assert local_feature_size(np.empty((0, 2)), []).shape == (0,)
 
 
 @pytest.mark.parametrize("r", [0.125, 0.2])
@@ -289,15 +288,15 @@ def test_samples_on_one_circle_have_its_radius_as_feature_size(r: float) -> None
     """Where all circles of curvature coincide, a disk that touches two of them is 0/0."""
     for seed in range(10):
         points = r_sample(circle(), r, seed=seed).points
-        sizes = feature_size_of_samples(points, crust(points))
+        sizes = local_feature_size(points, crust(points))
         np.testing.assert_allclose(sizes, 1, rtol=1e-5)
 
 
 @pytest.mark.parametrize("exponent", [-30, 30])
 def test_estimate_scales_with_the_curve(exponent: int) -> None:
     sample = r_sample(blob(1), 0.2, seed=1)
-    sizes = feature_size_of_samples(sample.points, sample.edges)
-    scaled = feature_size_of_samples(sample.points * 2.0**exponent, sample.edges)
+    sizes = local_feature_size(sample.points, sample.edges)
+    scaled = local_feature_size(sample.points * 2.0**exponent, sample.edges)
     np.testing.assert_allclose(scaled, sizes * 2.0**exponent, rtol=1e-9)
 
 
@@ -305,5 +304,5 @@ def test_estimate_scales_with_the_curve(exponent: int) -> None:
 def test_estimate_of_dense_samples_is_not_spoilt_by_rounding(n: int) -> None:
     curve = ellipse(2, 1).moved(offset=(6e6, 5e6))
     t = np.sort(np.random.default_rng(n).random(n))
-    sizes = feature_size_of_samples(curve.point(t), ring(n))
-    np.testing.assert_allclose(sizes, local_feature_size(ellipse(2, 1), t), rtol=0.05)
+    sizes = local_feature_size(curve.point(t), ring(n))
+    np.testing.assert_allclose(sizes, ellipse(2, 1).local_feature_size(t), rtol=0.05)

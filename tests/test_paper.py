@@ -23,14 +23,13 @@ from crustline import (
     Delaunay,
     beta_skeleton,
     crust,
-    local_feature_size,
     r_sample,
     shapes,
     theory,
 )
-from crustline.feature_size import CurveMedialAxis, medial_axis_of_curve
-from crustline.sampling import Mode, is_r_sample, sampling_ratio
-from crustline.shapes import SmoothCurve
+from crustline.shapes import CurveMedialAxis, SmoothCurve
+from crustline.shapes.ratio import is_r_sample, sampling_ratio
+from crustline.shapes.sampling import Mode
 
 FloatArray = npt.NDArray[np.float64]
 BoolArray = npt.NDArray[np.bool_]
@@ -111,7 +110,7 @@ def test_lemma_1_disk_without_medial_axis_point_meets_the_curve_in_one_arc(
 ) -> None:
     center, radius = random_disks(curve, 1)
     several = ~meets_in_one_arc(curve, center, radius)
-    axis = medial_axis_of_curve(curve)
+    axis = curve.medial_axis()
     free = axis_distance(axis, center) > radius * (1 + TOLERANCE)
     two_points = inside(curve, center, radius).sum(axis=(0, -1)) >= 2
     assert (free & two_points).sum() > 20
@@ -121,7 +120,7 @@ def test_lemma_1_disk_without_medial_axis_point_meets_the_curve_in_one_arc(
 
 def test_lemma_1_fails_with_a_third_of_the_medial_axis(curve: SmoothCurve) -> None:
     center, radius = random_disks(curve, 1)
-    axis = medial_axis_of_curve(curve)
+    axis = curve.medial_axis()
     low, high = np.min(axis.vertices[:, 0]), np.max(axis.vertices[:, 0])
     kept = axis.vertices[axis.vertices[:, 0] < low + (high - low) / 3]
     part = CurveMedialAxis(kept, np.zeros(len(kept)), np.empty((0, 2), dtype=np.int64), 0.0)
@@ -136,14 +135,14 @@ def test_lemma_2_voronoi_disks_contain_a_medial_axis_point(curve: SmoothCurve, n
     small = samples.circumradii < extent(curve) / 2
     center, radius = samples.circumcenters[small], samples.circumradii[small]
     assert len(center) >= n / 2
-    assert np.all(axis_distance(medial_axis_of_curve(curve), center) <= radius * (1 + TOLERANCE))
+    assert np.all(axis_distance(curve.medial_axis(), center) <= radius * (1 + TOLERANCE))
 
 
 def test_lemma_2_fails_for_points_off_the_curve(curve: SmoothCurve) -> None:
     rng = np.random.default_rng(2)
     points = curve.point(rng.random(200)) + rng.normal(0, 0.01, (200, 2))
     samples = Delaunay(points)
-    distance = axis_distance(medial_axis_of_curve(curve), samples.circumcenters)
+    distance = axis_distance(curve.medial_axis(), samples.circumcenters)
     assert np.any(distance > samples.circumradii * (1 + TOLERANCE))
 
 
@@ -151,7 +150,7 @@ def disks_around(curve: SmoothCurve, diameter: float, seed: int) -> tuple[FloatA
     """Return disks that hold a random point p of the curve, diameter times LFS(p) across."""
     rng = np.random.default_rng(seed)
     t = rng.random(400)
-    radius = local_feature_size(curve, t) * diameter / 2
+    radius = curve.local_feature_size(t) * diameter / 2
     angle, share = rng.uniform(0, 2 * math.pi, 400), np.sqrt(rng.random(400))
     offset = (share * radius)[:, None] * np.stack([np.cos(angle), np.sin(angle)], -1)
     return curve.point(t) + offset, radius
@@ -165,21 +164,21 @@ def test_corollary_3_disk_through_p_of_diameter_lfs(curve: SmoothCurve) -> None:
 def test_corollary_3_on_the_stadium_is_within_a_factor_of_two() -> None:
     # The disk between the two sides has the diameter 2 LFS.
     stadium = CURVES["stadium"]
-    center, radius = np.zeros((1, 2)), local_feature_size(stadium, [0.1])
+    center, radius = np.zeros((1, 2)), stadium.local_feature_size([0.1])
     assert meets_in_one_arc(stadium, center, radius * 0.99)
     assert not meets_in_one_arc(stadium, center, radius * 1.01)
 
 
 def test_corollary_4_disk_around_p_of_radius_lfs(curve: SmoothCurve) -> None:
     t = np.random.default_rng(4).random(400)
-    p, lfs = curve.point(t), local_feature_size(curve, t)
+    p, lfs = curve.point(t), curve.local_feature_size(t)
     assert np.all(meets_in_one_arc(curve, p, lfs))
     assert not np.all(meets_in_one_arc(curve, p, 4 * lfs))
 
 
 def test_lemma_7_tangent_disks_of_radius_lfs_are_empty(curve: SmoothCurve) -> None:
     t = np.random.default_rng(7).random(400)
-    p, normal, lfs = curve.point(t), curve.normal(t), local_feature_size(curve, t)
+    p, normal, lfs = curve.point(t), curve.normal(t), curve.local_feature_size(t)
 
     def is_empty(side: int, radius: FloatArray) -> BoolArray:
         return np.asarray(
@@ -413,7 +412,7 @@ def farthest_of_each_arc(between: Arcs) -> tuple[FloatArray, FloatArray]:
     share = np.clip(np.sum((p - start) * step, axis=2) / np.sum(step * step, axis=2), 0, 1)
     distance = lengths(p - start - share[..., None] * step)
     row, column = np.arange(len(t)), np.argmax(distance, axis=1)
-    return distance[row, column], local_feature_size(between.curve, t[row, column])
+    return distance[row, column], between.curve.local_feature_size(t[row, column])
 
 
 @pytest.mark.parametrize("r", [0.2, 0.5, 0.9])
@@ -521,7 +520,7 @@ def test_lemma_17_fails_for_half_its_phi() -> None:
 
 
 def forbidden_regions_hold_axis(between: Arcs, phi: float) -> BoolArray:
-    axis = medial_axis_of_curve(between.curve)
+    axis = between.curve.medial_axis()
     *centers, radius = forbidden_disks(*between.ends(), phi)
     nearest = np.min([axis_distance(axis, center) for center in centers], axis=0)
     return np.asarray(nearest < radius * (1 - TOLERANCE))

@@ -9,18 +9,13 @@ import numpy.typing as npt
 import pytest
 
 import generators
-from crustline import sampling, shapes
+from crustline import shapes
 from crustline.errors import InputError
-from crustline.feature_size import local_feature_size
-from crustline.sampling import (
-    Sample,
-    is_r_sample,
-    r_sample,
-    sample_for_error,
-    sampling_ratio,
-    thin,
-)
 from crustline.shapes import SmoothCurve
+from crustline.shapes.bezier import bezier_loop
+from crustline.shapes.ratio import is_r_sample, sampling_ratio
+from crustline.shapes.sampling import Mode, Sample, r_sample, sample_for_error
+from crustline.thinning import thin
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -42,12 +37,12 @@ def dense_ratio(curve: SmoothCurve, points: FloatArray, k: int = 8000) -> float:
     t = np.arange(k) / k
     p = curve.point(t)
     nearest = np.min([np.hypot(p[:, 0] - x, p[:, 1] - y) for x, y in points], axis=0)
-    return float(np.max(nearest / local_feature_size(curve, t)))
+    return float(np.max(nearest / curve.local_feature_size(t)))
 
 
 @pytest.mark.parametrize("r", [0.1, 0.5, 1.0])
 @pytest.mark.parametrize("mode", ["sparsest", "random"])
-def test_r_samples_are_r_samples(curve: SmoothCurve, r: float, mode: sampling.Mode) -> None:
+def test_r_samples_are_r_samples(curve: SmoothCurve, r: float, mode: Mode) -> None:
     sample = r_sample(curve, r, seed=7, mode=mode)
     assert sampling_ratio(curve, sample) <= r
     assert is_r_sample(curve, sample, r)
@@ -91,7 +86,7 @@ def test_sparsest_is_tight_and_random_is_denser(curve: SmoothCurve) -> None:
 
 
 def test_samples_are_the_same_for_the_same_seed(curve: SmoothCurve) -> None:
-    modes: tuple[sampling.Mode, ...] = ("sparsest", "random")
+    modes: tuple[Mode, ...] = ("sparsest", "random")
     for mode in modes:
         one, two, other = (r_sample(curve, 0.4, seed, mode) for seed in (9, 9, 10))
         assert np.array_equal(one.t, two.t)
@@ -143,7 +138,7 @@ def test_theorem_13_bound_holds_for_r_samples(curve: SmoothCurve) -> None:
     """
     sample, t = r_sample(curve, 0.5, seed=4), np.arange(4000) / 4000
     distance = _distances_to_polygon(curve.point(t), sample)
-    bound = 0.5**2 / 2 * local_feature_size(curve, t)
+    bound = 0.5**2 / 2 * curve.local_feature_size(t)
     for i, j in sample.edges:
         low, high = sorted((sample.t[i], sample.t[j]))
         arc = np.flatnonzero((low < t) & (t < high))
@@ -196,7 +191,7 @@ def test_splines_through_thinned_samples_can_be_sampled(tolerance: float | None)
     sample = r_sample(shapes.trefoil(3, 0.3), 0.01, seed=1)
     points = sample.points[thin(sample.points, sample.edges, 0.02)]
     (pieces,) = smooth(points, crust(points)).beziers(tolerance)
-    curve = SmoothCurve((shapes.Loop(shapes._bezier(pieces), len(pieces)),))
+    curve = SmoothCurve((bezier_loop(pieces),))
     again = r_sample(curve, 0.2)
     assert dense_ratio(curve, again.points) <= 0.2
     assert len(again) < 120
@@ -225,131 +220,3 @@ def test_other_bad_input_is_named() -> None:
     for rtol in (0.0, 1.0, float("nan")):
         with pytest.raises(InputError, match="rtol must be in"):
             sampling_ratio(shapes.circle(), [(1, 0)], rtol=rtol)
-
-
-# Thinning. The samples are dense, so what is known of the curve is nearly true of its
-# reconstruction.
-
-
-def dense(curve: SmoothCurve, r: float = 0.01) -> tuple[FloatArray, npt.NDArray[np.int64]]:
-    sample = r_sample(curve, r, seed=0, mode="random")
-    order = np.random.default_rng(0).permutation(len(sample))
-    rank = np.argsort(order)
-    return sample.points[order], np.sort(rank[sample.edges], axis=1)
-
-
-@pytest.mark.parametrize("r", [0.2, 0.5])
-def test_thinned_samples_still_r_sample_the_curve(curve: SmoothCurve, r: float) -> None:
-    points, edges = dense(curve)
-    kept = thin(points, edges, r)
-    assert np.array_equal(kept, np.unique(kept))
-    assert sampling_ratio(curve, points[kept]) <= r * 1.1
-    assert len(kept) <= 1.25 * len(r_sample(curve, r)) + 2
-
-
-def test_thin_keeps_endpoints_branches_and_isolated_points() -> None:
-    t = np.linspace(0, 1, 101)
-    bow = np.stack([t, 0.2 * np.sin(3 * t)], -1)
-    points = np.vstack([bow, [[0.5, 5.0]]])
-    edges = np.stack([np.arange(100), np.arange(1, 101)], -1)
-    kept = thin(points, edges, 0.3)
-    assert {0, 100, 101} <= set(kept.tolist())
-    assert len(kept) < 30
-
-
-def test_thin_of_sparse_samples_keeps_all() -> None:
-    sample = r_sample(shapes.trefoil(3, 0.4), 0.4)
-    assert np.array_equal(thin(sample.points, sample.edges, 0.1), np.arange(len(sample)))
-
-
-def test_thin_without_edges_keeps_all() -> None:
-    assert thin([(0, 0), (1, 1)], np.empty((0, 2), dtype=int), 0.2).tolist() == [0, 1]
-
-
-def test_thinned_chain_is_the_fewest_of_all_choices() -> None:
-    """Against dynamic programming over the same pairs, with LFS given."""
-    rng = np.random.default_rng(8)
-    for _ in range(20):
-        angle = np.sort(rng.random(24)) * 2 * np.pi
-        points = np.stack([np.cos(angle), np.sin(angle)], -1)
-        lfs = np.full(24, 1.0)
-        kept = sampling._thinned(points, lfs, 0.5, closed=False)
-        assert len(kept) == _fewest(points, lfs, 0.5)
-
-
-@pytest.mark.parametrize("closed", [True, False])
-def test_strides_over_very_dense_samples_are_the_longest_steps(
-    closed: bool, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    curve = shapes.trefoil(3, 0.4)
-    t = np.arange(3000) / 3000
-    points, lfs = curve.point(t), local_feature_size(curve, t)
-    every = sampling._thinned(points, lfs, 0.2, closed)
-    monkeypatch.setattr(sampling, "MOST_SERVED", 0)
-    strides = sampling._thinned(points, lfs, 0.2, closed)
-    assert len(every) <= len(strides) <= len(every) + closed
-    if closed:
-        assert sampling_ratio(curve, points[strides]) <= 0.2 * 1.001
-    else:
-        assert np.array_equal(strides, every)
-
-
-@pytest.mark.parametrize("closed", [True, False])
-def test_surely_served_edges_are_served(closed: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Thinning begins at a bound; from nothing it comes to the same, edge by edge."""
-
-    def none(edges: FloatArray, *_: object) -> npt.NDArray[np.int64]:
-        return np.zeros(len(edges), dtype=np.int64)
-
-    rng = np.random.default_rng(2)
-    for n, r in ((5, 1.0), (60, 0.5), (700, 0.3), (2000, 0.2)):
-        t = np.sort(rng.random(n))
-        points = shapes.blob(n).point(t)
-        lfs = local_feature_size(shapes.blob(n), t)
-        begun = sampling._served_edges(points, lfs, r, closed)
-        with monkeypatch.context() as patch:
-            patch.setattr(sampling, "_surely_served", none)
-            afresh = sampling._served_edges(points, lfs, r, closed)
-        assert begun is not None
-        assert afresh is not None
-        assert np.allclose(begun, afresh, rtol=1e-12)
-
-
-def test_thinning_very_dense_samples_looks_at_few_of_their_edges(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    looked = []
-    served_part = sampling._served_part
-
-    def counted(*arguments: FloatArray) -> FloatArray:
-        looked.append(len(arguments[-1]))
-        return served_part(*arguments)  # type: ignore[arg-type]
-
-    monkeypatch.setattr(sampling, "_served_part", counted)
-    n = 60_000
-    points = shapes.trefoil(3, 0.3).point(np.arange(n) / n)
-    edges = np.stack([np.arange(n), (np.arange(n) + 1) % n], -1)
-    assert len(thin(points, edges, 0.2)) < 60
-    assert sum(looked) < 20 * n
-
-
-def _fewest(points: FloatArray, lfs: FloatArray, r: float) -> int:
-    count = {0: 1}
-    for j in range(1, len(points)):
-        count[j] = min(count[i] for i in range(j) if _serve(points, lfs, r, i, j)) + 1
-    return count[len(points) - 1]
-
-
-def _serve(points: FloatArray, lfs: FloatArray, r: float, i: int, j: int) -> bool:
-    """Return whether samples i and j serve the edges between them, distances at their worst."""
-    if j == i + 1:
-        return True
-    for k in range(i, j):
-        s = np.linspace(0, 1, 201)[:, None]
-        length = np.hypot(*(points[k + 1] - points[k]))
-        low = np.maximum(lfs[k] - length * s[:, 0], lfs[k + 1] - length * (1 - s[:, 0]))
-        ends = (np.hypot(*(points[[k, k + 1]] - points[end]).T) for end in (i, j))
-        near = np.minimum(*(first + s[:, 0] * (last - first) for first, last in ends))
-        if np.any(near > r * low * (1 + 1e-9)):
-            return False
-    return True

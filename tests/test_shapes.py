@@ -9,10 +9,11 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from crustline import feature_size, shapes
+from crustline import shapes
 from crustline.errors import FormatError, InputError
-from crustline.feature_size import local_feature_size, medial_axis_of_curve, nearest_site
-from crustline.shapes import Loop, SmoothCurve
+from crustline.shapes import Loop, SmoothCurve, contacts
+from crustline.shapes.bezier import bezier_loop
+from crustline.shapes.nearest import nearest_site
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -91,9 +92,9 @@ def test_tangent_and_normal_are_unit_and_at_right_angles(curve: SmoothCurve) -> 
 def test_ellipse_axis_computed_is_the_segment_known(a: float) -> None:
     known = shapes.ellipse(a, 1)
     t = np.linspace(0, 1, 2001)
-    computed = local_feature_size(forgotten(known), t)
-    assert np.max(np.abs(computed / local_feature_size(known, t) - 1)) < 1e-6
-    axis = medial_axis_of_curve(forgotten(known))
+    computed = forgotten(known).local_feature_size(t)
+    assert np.max(np.abs(computed / known.local_feature_size(t) - 1)) < 1e-6
+    axis = forgotten(known).medial_axis()
     assert np.abs(axis.vertices[:, 1]).max() < 1e-6
     assert axis.vertices[:, 0].max() == pytest.approx((a * a - 1) / a, rel=1e-6)
 
@@ -102,9 +103,9 @@ def test_ellipse_axis_computed_is_the_segment_known(a: float) -> None:
 def test_stadium_axis_computed_is_the_segment_known(length: float) -> None:
     known = shapes.stadium(length, 0.7)
     t = np.linspace(0, 1, 2001)
-    computed = local_feature_size(forgotten(known), t)
-    assert np.max(np.abs(computed / local_feature_size(known, t) - 1)) < 1e-4
-    assert np.all(local_feature_size(known, t) <= 0.7 * (1 + 1e-12))
+    computed = forgotten(known).local_feature_size(t)
+    assert np.max(np.abs(computed / known.local_feature_size(t) - 1)) < 1e-4
+    assert np.all(known.local_feature_size(t) <= 0.7 * (1 + 1e-12))
 
 
 def test_local_feature_size_is_within_a_thousandth_of_brute_force() -> None:
@@ -116,11 +117,11 @@ def test_local_feature_size_is_within_a_thousandth_of_brute_force() -> None:
         vertices = spatial.Voronoi(dense).vertices
         t = places(curve, 500)
         truth = spatial.cKDTree(vertices).query(curve.point(t))[0]
-        assert np.max(np.abs(local_feature_size(curve, t) / truth - 1)) < 3e-4, name
+        assert np.max(np.abs(curve.local_feature_size(t) / truth - 1)) < 3e-4, name
 
 
 def test_axis_vertices_are_centers_of_empty_disks_that_touch(curve: SmoothCurve) -> None:
-    axis = medial_axis_of_curve(curve)
+    axis = curve.medial_axis()
     if axis.error == 0:
         return
     dense = curve.point(np.arange(20_000) / 20_000)
@@ -133,7 +134,7 @@ def test_local_feature_size_is_1_lipschitz_and_at_most_the_radius_of_curvature()
     for name in SMOOTH:
         for part in CURVES[name].components:
             t = np.arange(5000) / 5000
-            lfs, p = local_feature_size(part, t), part.point(t)
+            lfs, p = part.local_feature_size(t), part.point(t)
             step = np.hypot(*(np.roll(p, -1, axis=0) - p).T)
             assert np.all(np.abs(np.roll(lfs, -1) - lfs) <= step + 1e-4 * lfs)
             assert np.all(lfs * np.abs(part.curvature(t)) <= 1 + 1e-4)
@@ -142,15 +143,15 @@ def test_local_feature_size_is_1_lipschitz_and_at_most_the_radius_of_curvature()
 def test_rtol_is_kept() -> None:
     curve = shapes.trefoil(3, 0.5)
     t = places(curve, 500)
-    fine = local_feature_size(curve, t, rtol=1e-5)
+    fine = curve.local_feature_size(t, rtol=1e-5)
     for rtol in (1e-2, 1e-3):
-        error = np.max(np.abs(local_feature_size(curve, t, rtol=rtol) / fine - 1))
+        error = np.max(np.abs(curve.local_feature_size(t, rtol=rtol) / fine - 1))
         assert error <= rtol
 
 
 def test_local_feature_size_between_two_circles_is_half_the_gap() -> None:
     curve = CURVES["side by side"]
-    assert local_feature_size(curve, 0.0) == pytest.approx(0.15, rel=1e-6)
+    assert curve.local_feature_size(0.0) == pytest.approx(0.15, rel=1e-6)
 
 
 def test_local_feature_size_scales_and_turns_with_the_curve() -> None:
@@ -158,7 +159,7 @@ def test_local_feature_size_scales_and_turns_with_the_curve() -> None:
     moved = curve.moved(scale=2.0**20, angle=0.7, offset=(3, -4))
     t = places(curve, 300)
     assert np.allclose(
-        local_feature_size(moved, t), 2.0**20 * local_feature_size(curve, t), rtol=1e-4
+        moved.local_feature_size(t), 2.0**20 * curve.local_feature_size(t), rtol=1e-4
     )
 
 
@@ -166,7 +167,7 @@ def test_local_feature_size_is_the_same_far_from_the_origin() -> None:
     """Cartographic offsets: rounding of coordinates is not taken for contacts of tight disks."""
     curve, t = shapes.blob(1), places(shapes.circle(), 200)
     far = curve.moved(offset=(6_000_000, -5_000_000))
-    assert np.allclose(local_feature_size(far, t), local_feature_size(curve, t), rtol=1e-3)
+    assert np.allclose(far.local_feature_size(t), curve.local_feature_size(t), rtol=1e-3)
 
 
 def test_pieces_that_are_small_beside_the_features_need_few_nodes(
@@ -176,11 +177,11 @@ def test_pieces_that_are_small_beside_the_features_need_few_nodes(
     points = shapes.trefoil(3, 0.4).point(np.arange(150) / 150)
     few, all_ = shapes.spline(points), shapes.spline(points)
     t = places(few, 300)
-    sizes = local_feature_size(few, t)
-    count = len(feature_size._first_nodes(few))
-    monkeypatch.setattr(feature_size, "NODE_TURN", 1e-9)
-    assert 4 * count < len(feature_size._first_nodes(all_)) == 24 * 150
-    assert np.allclose(sizes, local_feature_size(all_, t), rtol=1e-5)
+    sizes = few.local_feature_size(t)
+    count = len(contacts._first_nodes(few))
+    monkeypatch.setattr(contacts, "NODE_TURN", 1e-9)
+    assert 4 * count < len(contacts._first_nodes(all_)) == 24 * 150
+    assert np.allclose(sizes, all_.local_feature_size(t), rtol=1e-5)
 
 
 def test_first_nodes_of_many_pieces_hold_jumps_and_extremes_of_the_curvature() -> None:
@@ -193,16 +194,16 @@ def test_first_nodes_of_many_pieces_hold_jumps_and_extremes_of_the_curvature() -
     for _ in range(3):
         turned.append(np.stack([-turned[-1][..., 1], turned[-1][..., 0]], -1))
     pieces = np.concatenate(turned)
-    loop = SmoothCurve((Loop(shapes._bezier(pieces), len(pieces)),))
+    loop = SmoothCurve((bezier_loop(pieces),))
     joints = np.delete(np.arange(12), [2, 5, 8, 11]) / 12  # but those amid the straight sides
-    assert np.isin(joints, feature_size._first_nodes(loop)).all()
-    assert local_feature_size(loop, 0.5 / 12) == pytest.approx(0.2, rel=2e-2)
-    assert local_feature_size(loop, 2 / 12) == pytest.approx(np.sqrt(0.5), rel=1e-3)
+    assert np.isin(joints, contacts._first_nodes(loop)).all()
+    assert loop.local_feature_size(0.5 / 12) == pytest.approx(0.2, rel=2e-2)
+    assert loop.local_feature_size(2 / 12) == pytest.approx(np.sqrt(0.5), rel=1e-3)
 
 
 def test_the_axis_is_computed_once_whatever_way_the_tolerance_is_given() -> None:
     curve = shapes.blob(21)
-    assert medial_axis_of_curve(curve) is medial_axis_of_curve(curve, rtol=1e-4)
+    assert curve.medial_axis() is curve.medial_axis(rtol=1e-4)
 
 
 @pytest.mark.parametrize("size", [1e-60, 1e60])
@@ -220,22 +221,22 @@ def test_the_extreme_sizes_that_are_admitted_work(size: float) -> None:
     ]
     for make in makers:
         curve = make(size)
-        lfs = local_feature_size(curve, places(curve, 20)) / size
+        lfs = curve.local_feature_size(places(curve, 20)) / size
         assert np.all((lfs > 0.05) & (lfs < 3))
         assert np.all(np.isfinite(curve.curvature(places(curve, 20)) * size))
 
 
 def test_local_feature_size_keeps_the_shape_of_t() -> None:
-    assert local_feature_size(shapes.circle(), np.zeros((2, 3))).shape == (2, 3)
-    assert float(local_feature_size(shapes.circle(), 0.25)) == pytest.approx(1.0)
+    assert shapes.circle().local_feature_size(np.zeros((2, 3))).shape == (2, 3)
+    assert float(shapes.circle().local_feature_size(0.25)) == pytest.approx(1.0)
 
 
 def test_a_curve_that_crosses_itself_is_refused() -> None:
     figure_eight = shapes.fourier([0, 1, 0.9, 0, 0])
     with pytest.raises(InputError, match="crosses or touches itself near"):
-        local_feature_size(figure_eight, 0.0)
+        figure_eight.local_feature_size(0.0)
     with pytest.raises(InputError, match="crosses or touches itself near"):
-        local_feature_size(shapes.circle() + shapes.circle().moved(offset=(0.5, 0)), 0.0)
+        (shapes.circle() + shapes.circle().moved(offset=(0.5, 0))).local_feature_size(0.0)
 
 
 # The shapes' own input.
@@ -408,7 +409,7 @@ def test_bezier_path_makes_rounded_joints_smooth_and_refuses_corners() -> None:
         (lambda: shapes.circle().moved(offset=3), "offset must be a pair of numbers"),
         (lambda: shapes.circle().moved(offset=(0, np.nan)), "offset must be a pair of numbers"),
         (lambda: shapes.circle().point(np.nan), "t must be finite, not nan"),
-        (lambda: medial_axis_of_curve(shapes.circle(), rtol=0), "rtol must be in"),
+        (lambda: shapes.circle().medial_axis(rtol=0), "rtol must be in"),
     ],
 )
 def test_bad_input_is_named(make: object, words: str) -> None:
@@ -422,7 +423,7 @@ def test_a_curve_moved_out_of_the_range_of_sizes_is_refused() -> None:
     lost = shapes.circle().moved(offset=(1e12, 0))
     for curve, words in ((huge, r"e\+120 across"), (tiny, "2e-120 across"), (lost, "shift it")):
         with pytest.raises(InputError, match=words):
-            local_feature_size(curve, 0.0)
+            curve.local_feature_size(0.0)
 
 
 def test_a_loop_that_is_not_finite_is_refused() -> None:
@@ -431,7 +432,7 @@ def test_a_loop_that_is_not_finite_is_refused() -> None:
         return point, point, point
 
     with pytest.raises(InputError, match="point at t = 0 is not finite"):
-        medial_axis_of_curve(SmoothCurve((Loop(derivatives),)))
+        SmoothCurve((Loop(derivatives),)).medial_axis()
 
 
 # Point sets.

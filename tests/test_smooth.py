@@ -17,7 +17,8 @@ from scipy.spatial import cKDTree
 from crustline import shapes
 from crustline.curves import reconstruct, trace
 from crustline.errors import FormatError, InputError, MissingExtraError
-from crustline.sampling import r_sample, sampling_ratio
+from crustline.shapes.ratio import sampling_ratio
+from crustline.shapes.sampling import r_sample
 from crustline.smooth import Ends, SmoothCurves, Spline, smooth
 
 Floats = NDArray[np.float64]

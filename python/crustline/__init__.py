@@ -13,9 +13,8 @@ from crustline.certify import Certificate, certify
 from crustline.curves import Curve, Curves, Polygon, reconstruct, trace
 from crustline.delaunay import Delaunay
 from crustline.errors import CrustlineError, FormatError, InputError, MissingExtraError
-from crustline.feature_size import local_feature_size
 from crustline.formats import read, write
-from crustline.medial import MedialAxis, medial_axis
+from crustline.medial import MedialAxis, local_feature_size, medial_axis
 from crustline.methods import (
     METHODS,
     a_shape,
@@ -32,16 +31,11 @@ from crustline.methods import (
     relative_neighborhood,
 )
 from crustline.points import Points
-from crustline.sampling import (
-    Sample,
-    is_r_sample,
-    r_sample,
-    sample_for_error,
-    sampling_ratio,
-    thin,
-)
+from crustline.shapes.ratio import is_r_sample, sampling_ratio
+from crustline.shapes.sampling import Sample, r_sample, sample_for_error
 from crustline.smooth import SmoothCurves, Spline, smooth
 from crustline.theory import guaranteed_r
+from crustline.thinning import thin
 
 __all__ = [
     "METHODS",

@@ -213,7 +213,7 @@ def certify(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = None
     this one.
 
     *Estimated*: that they are an r-sample of the curve that these edges suggest, their smooth
-    interpolant (see `crustline.medial.feature_size_of_samples`). The estimate must be below the
+    interpolant (see `crustline.medial.local_feature_size`). The estimate must be below the
     threshold with a margin of 15 % to spare.
 
     *Not known*: the curve that the points were taken from. Samples that are too sparse for it may

@@ -1,6 +1,6 @@
 """The medial axis of samples (paper, §11: the anti-crust), and the local feature size from them.
 
-For a known smooth curve see `crustline.feature_size`.
+For a known smooth curve see `SmoothCurve.local_feature_size` in `crustline.shapes`.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from crustline.points import Points
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["MedialAxis", "feature_size_of_samples", "medial_axis"]
+__all__ = ["MedialAxis", "local_feature_size", "medial_axis"]
 
 #: How far `write` follows the axis beyond the points' bounding box, as a part of its longer side.
 MARGIN = 0.25
@@ -341,7 +341,7 @@ def medial_axis(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = 
     return MedialAxis(**fields, points=delaunay.points, selected=selected, crs=crs)
 
 
-def feature_size_of_samples(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike) -> FloatArray:
+def local_feature_size(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike) -> FloatArray:
     """Return an estimate of the local feature size at samples of an unknown curve.
 
     Parameters
@@ -388,7 +388,7 @@ def feature_size_of_samples(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLi
     >>> import numpy as np
     >>> angle = np.linspace(0, 2 * np.pi, 24, endpoint=False)
     >>> circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-    >>> feature_size_of_samples(circle, [(i, (i + 1) % 24) for i in range(24)]).round(6)[:3]
+    >>> local_feature_size(circle, [(i, (i + 1) % 24) for i in range(24)]).round(6)[:3]
     array([1., 1., 1.])
     """
     delaunay = triangulation(points, None, None)

@@ -522,7 +522,7 @@ class _Scene:
 
     @cached_property
     def feature_sizes(self) -> FloatArray:
-        from crustline.feature_size import local_feature_size
+        from crustline.medial import local_feature_size
 
         return np.asarray(local_feature_size(self.points, self.edges))
 

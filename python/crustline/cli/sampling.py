@@ -15,8 +15,8 @@ from crustline.cli.source import Source, source_options
 from crustline.errors import InputError
 
 if TYPE_CHECKING:
-    from crustline.sampling import Sample
     from crustline.shapes import SmoothCurve
+    from crustline.shapes.sampling import Sample
 
 SHAPES = ("circle", "ellipse", "stadium", "trefoil", "blob", "superformula")
 
@@ -82,7 +82,7 @@ def sample(
 def _take(
     curve: SmoothCurve, r: float | None, error: float | None, seed: int | None, mode: Any
 ) -> Sample:
-    from crustline.sampling import r_sample, sample_for_error
+    from crustline.shapes.sampling import r_sample, sample_for_error
 
     if error is not None:
         if not (error > 0 and np.isfinite(error)):
@@ -177,7 +177,7 @@ def thin(source: Source, r: float, output: Output, method: Method) -> None:
         raise InputError(f"-r is {r}: give a number in (0, 1], such as 0.2")
     points, _, edges = select_edges(source, method, output.quiet)
 
-    from crustline.sampling import thin
+    from crustline.thinning import thin
 
     kept = points.select(thin(points, edges, r))
     output.write(kept.write)

@@ -1,0 +1,150 @@
+"""The medial axis of a smooth curve, traced by its empty disks, and the distance to it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+import numpy.typing as npt
+
+from crustline.arrays import BoolArray, FloatArray, IntArray
+from crustline.errors import InputError
+from crustline.shapes.contacts import Nodes, contact_grid, refined
+from crustline.shapes.curve import SmoothCurve, refuse_extent
+from crustline.shapes.nearest import nearest_site
+
+# Where contacts no farther apart than this share of the radii have centers far apart, the axis
+# between the centers lies along the normal that they share.
+SAME_CONTACT = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class CurveMedialAxis:
+    """The medial axis of a smooth curve, as far as its local feature size depends on it.
+
+    Attributes
+    ----------
+    vertices : ndarray of float64, shape (v, 2)
+        Points of the axis: centers of maximal empty disks.
+    radii : ndarray of float64, shape (v,)
+        The radii of those disks.
+    segments : ndarray of int64, shape (s, 2)
+        Rows of `vertices` that follow one another along the axis. The axis between them is near the
+        segment.
+    error : float
+        Bound for the relative error of a distance from the curve to the vertices and segments; 0 if
+        the axis is known in closed form.
+
+    Notes
+    -----
+    Parts of the axis whose disks are larger than half the extent of the curve are left
+    out: no point of the curve has its nearest point of the axis there. An interior disk gives each
+    point a nearer one.
+    """
+
+    vertices: FloatArray
+    radii: FloatArray
+    segments: IntArray
+    error: float
+
+    def distance(self, points: npt.ArrayLike) -> FloatArray:
+        """Return the distance from each of points (k, 2) to the axis, shape (k,)."""
+        p = np.asarray(points, dtype=np.float64).reshape(-1, 2)
+        distance, vertex = nearest_site(p, self.vertices)
+        for column in range(2):
+            # A vertex begins at most one segment and ends at most one: the two that its walk along
+            # the curve links.
+            link = np.full(len(self.vertices), -1)
+            link[self.segments[:, column]] = self.segments[:, 1 - column]
+            other = link[vertex]
+            k = np.flatnonzero(other >= 0)
+            foot = _distance_to_segments(p[k], self.vertices[vertex[k]], self.vertices[other[k]])
+            distance[k] = np.minimum(distance[k], foot)
+        return distance
+
+
+@lru_cache(maxsize=128)
+def medial_axis(curve: SmoothCurve, rtol: float) -> CurveMedialAxis:
+    """Return the medial axis of a smooth curve: see `SmoothCurve.medial_axis`."""
+    _refuse_extremes(curve)
+    if len(curve.loops) == 1 and curve.loops[0].axis is not None:
+        return _known_axis(curve, curve.loops[0].axis)
+    return _linked(_traced(*contact_grid(curve), math.sqrt(8 * rtol)), rtol)
+
+
+def _refuse_extremes(curve: SmoothCurve) -> None:
+    t = np.arange(256 * len(curve.loops)) / (256 * len(curve.loops))
+    with np.errstate(all="ignore"):
+        points = curve.point(t)
+    finite = np.isfinite(points).all(axis=1)
+    if not finite.all():
+        raise InputError(
+            f"the curve's point at t = {t[np.argmin(finite)]:g} is not finite: correct the loop"
+        )
+    for part in np.split(points, len(curve.loops)):
+        refuse_extent(part)
+
+
+def _known_axis(curve: SmoothCurve, ends: FloatArray) -> CurveMedialAxis:
+    radii, _ = nearest_site(ends, curve.point(np.arange(4096) / 4096))
+    rows = np.arange(len(ends))
+    return CurveMedialAxis(ends, radii, np.stack([rows[:-1], rows[1:]], -1), 0.0)
+
+
+def _traced(grid: Nodes, disks: FloatArray, gap: float) -> tuple[Nodes, FloatArray]:
+    """Return nodes and curvatures (2, k) of their disks, centers at most gap radii apart."""
+
+    def are_far_apart(nodes: Nodes, disks: FloatArray) -> BoolArray:
+        left, right = (_far_apart(nodes, disks[k], sign, gap) for k, sign in ((0, 1), (1, -1)))
+        return left | right
+
+    return refined(grid, disks, are_far_apart, grid)
+
+
+def _far_apart(nodes: Nodes, disks: FloatArray, side: int, gap: float) -> BoolArray:
+    """Return whether the axis between a center and the following one needs a vertex."""
+    center, radius = _centers(nodes, disks, side)
+    step = np.hypot(*(center[nodes.following] - center).T)
+    least = np.minimum(radius, radius[nodes.following])
+    apart = np.hypot(*(nodes.point[nodes.following] - nodes.point).T) > SAME_CONTACT * least
+    one = np.isfinite(radius) ^ np.isfinite(radius[nodes.following])
+    both = np.isfinite(radius + radius[nodes.following])
+    # A disk beyond half the extent matters to no point, so where the axis runs off its end may stay
+    # rough.
+    wide = both & apart & (step > gap * least)
+    return np.asarray(wide | (one & (least < 0.6 * nodes.extent())))
+
+
+def _centers(nodes: Nodes, disks: FloatArray, side: int) -> tuple[FloatArray, FloatArray]:
+    """Return centers on one side and radii, infinite where a disk is too large to matter."""
+    matters = disks * nodes.extent() > 1
+    radius = np.where(matters, 1 / np.where(matters, disks, 1.0), np.inf)
+    reach = np.where(matters, side * radius, 0.0)
+    return nodes.point + reach[:, None] * nodes.normal, radius
+
+
+def _linked(traced: tuple[Nodes, FloatArray], rtol: float) -> CurveMedialAxis:
+    """Return the axis with one vertex for each disk, linked along the curve."""
+    nodes, disks = traced
+    vertices, radii, segments, count = [], [], [], 0
+    for side, curvature in zip((1, -1), disks, strict=True):
+        center, radius = _centers(nodes, curvature, side)
+        kept = np.isfinite(radius)
+        row = count + np.cumsum(kept) - 1
+        linked = kept & kept[nodes.following]
+        segments.append(np.stack([row[linked], row[nodes.following[linked]]], -1))
+        vertices.append(center[kept])
+        radii.append(radius[kept])
+        count += int(kept.sum())
+    joined = np.concatenate(vertices), np.concatenate(radii), np.concatenate(segments)
+    return CurveMedialAxis(*joined, error=rtol)
+
+
+def _distance_to_segments(p: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
+    d, e = b - a, p - a
+    square = d[:, 0] ** 2 + d[:, 1] ** 2
+    along = (d[:, 0] * e[:, 0] + d[:, 1] * e[:, 1]) / np.where(square > 0, square, 1.0)
+    foot = a + np.clip(along, 0.0, 1.0)[:, None] * d
+    return np.hypot(p[:, 0] - foot[:, 0], p[:, 1] - foot[:, 1])
