@@ -337,7 +337,7 @@ def smooth_errors(name: str) -> Rows:
 
 def _distances(curve: shapes.SmoothCurve, sample: cl.Sample) -> tuple[float, float]:
     """Return the distances of a single loop's polygon and spline from it."""
-    spline = cl.smooth(sample.points, sample.edges)[0]
+    spline = cl.smooth(cl.trace(sample.points, sample.edges))[0]
     share = (np.arange(24) + 0.5) / 24
     a = np.concatenate([spline.parameters, [1.0]])
     rows = np.append(spline.indices, spline.indices[0])

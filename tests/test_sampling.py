@@ -186,11 +186,11 @@ def test_a_longish_ellipse_is_sampled() -> None:
 def test_splines_through_thinned_samples_can_be_sampled(tolerance: float | None) -> None:
     """Many pieces, or few with handles so short that the curvature jumps and falls at once."""
     pytest.importorskip("scipy")
-    from crustline import crust, smooth
+    from crustline import reconstruct, smooth
 
     sample = r_sample(shapes.trefoil(3, 0.3), 0.01, seed=1)
     points = sample.points[thin(sample.points, sample.edges, 0.02)]
-    (pieces,) = smooth(points, crust(points)).beziers(tolerance)
+    (pieces,) = smooth(reconstruct(points)).beziers(tolerance)
     curve = SmoothCurve((bezier_loop(pieces),))
     again = r_sample(curve, 0.2)
     assert dense_ratio(curve, again.points) <= 0.2

@@ -33,7 +33,7 @@ from crustline.methods import (
 from crustline.points import Points
 from crustline.shapes.ratio import is_r_sample, sampling_ratio
 from crustline.shapes.sampling import Sample, r_sample, sample_for_error
-from crustline.smooth import SmoothCurves, Spline, smooth
+from crustline.smooth import Spline, Splines, smooth
 from crustline.theory import guaranteed_r
 from crustline.thinning import thin
 
@@ -51,8 +51,8 @@ __all__ = [
     "Points",
     "Polygon",
     "Sample",
-    "SmoothCurves",
     "Spline",
+    "Splines",
     "__version__",
     "a_shape",
     "alpha_shape",

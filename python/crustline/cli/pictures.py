@@ -81,9 +81,10 @@ def smooth(
         raise InputError(f"--corner-angle is {corner_angle}: give degrees in (0, 180]")
     points, _, edges = select_edges(source, method, output.quiet)
 
+    from crustline.curves import trace
     from crustline.smooth import smooth
 
-    splines = smooth(points, edges, corner_angle=corner_angle)
+    splines = smooth(trace(points, edges), corner_angle=corner_angle)
     pieces = sum(map(len, splines.beziers(tolerance)))
     corners = sum(len(spline.corners) for spline in splines)
     for file in output.files:
