@@ -74,10 +74,10 @@ fuzz: ## Fuzz the triangulation and the crust for a minute.
 	cd crates/core/fuzz && RUSTFLAGS="$(COVERAGE)" cargo run --release --target "$$(rustc -vV | sed -n 's/host: //p')" -- -max_total_time=60 -max_len=512
 
 figures: build ## Redraw the paper's figures into docs/gallery/.
-	$(BIN)/python -m docs.figures
+	$(BIN)/python -m figures
 
 experiment: build ## Share of exact reconstructions against r; writes docs/experiments.md.
-	$(BIN)/python -m docs.experiment
+	$(BIN)/python -m experiments.theory
 
 clean: ## Remove what was built.
 	rm -rf target $(VENV) demo benchmarks/build python/crustline/*.so

@@ -1,0 +1,1 @@
+"""Measurements that pages of docs/ quote, each made by one command."""

@@ -1,0 +1,1 @@
+"""Where the theory's thresholds lie in practice: docs/experiments.md."""
