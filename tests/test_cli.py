@@ -228,13 +228,14 @@ def test_medial_axis_is_within_the_box_and_has_its_parts(goose, tmp_path):
         assert code == 0
         assert f"wrote {part[2:]}.csv, {part[2:]}.svg" in err
     goose("medial-axis", "-o", "all.csv", "--box", "0,0,50,60")
-    points = read(tmp_path / "goose.csv")
-    inner, outer = read(tmp_path / "inner.csv"), read(tmp_path / "outer.csv")
+    points, inner, outer = (
+        read(tmp_path / f"{name}.csv").xy for name in ("goose", "inner", "outer")
+    )
     assert (inner >= points.min(axis=0)).all()
     assert (inner <= points.max(axis=0)).all()
     margin = 0.25 * np.ptp(points, axis=0).max()
     assert np.isclose(outer.min(), points.min(axis=0)[1] - margin)  # where the rays are cut off
-    clipped = read(tmp_path / "all.csv")
+    clipped = read(tmp_path / "all.csv").xy
     assert clipped.min() >= 0
     assert (clipped.max(axis=0) <= (50, 60)).all()
 

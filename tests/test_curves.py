@@ -146,7 +146,7 @@ def test_reconstruct_passes_the_points_and_parameters_to_the_method():
 
     points = Points([(0, 0), (1, 0)])
     curves = reconstruct(points, method, alpha=3)
-    assert seen[0][0] is points
+    assert seen[0][0].points is points
     assert seen[0][1] == 3
     assert curves.edges.tolist() == [[0, 1]]
 

@@ -166,5 +166,5 @@ def test_new_zealand_gives_its_coasts_and_lakes(examples: Path) -> None:
 def test_read_gives_the_rows_of_an_example(examples: Path, name: str) -> None:
     points = cl.read(examples / name)
     expected = example(examples, name)
-    assert points.shape == expected.shape
+    assert len(points) == len(expected)
     assert np.array_equal(np.asarray(points), expected)

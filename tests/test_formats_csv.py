@@ -61,7 +61,7 @@ def read_text(tmp_path):
     ],
 )
 def test_the_same_points_in_many_spellings(read_text, text):
-    assert read_text(text).tolist() == [[1, 2], [3, 4.5]]
+    assert read_text(text).xy.tolist() == [[1, 2], [3, 4.5]]
 
 
 @pytest.mark.parametrize("name", ["p.csv", "p.tsv", "p.xyz", "p.txt", "p.dat", "p", "p.unknown"])
@@ -70,13 +70,13 @@ def test_the_suffix_does_not_matter_for_text(read_text, name):
 
 
 def test_utf_16_is_read(read_text):
-    assert read_text("x,y\n1,2\n".encode("utf-16")).tolist() == [[1, 2]]
+    assert read_text("x,y\n1,2\n".encode("utf-16")).xy.tolist() == [[1, 2]]
 
 
 @pytest.mark.parametrize("height", ["z", "Elevation", "HEIGHT"])
 def test_heights_are_found(read_text, height):
     points = read_text(f"id,{height},y,x\n7,3,2,1\n8,6,5,4\n")
-    assert points.tolist() == [[1, 2], [4, 5]]
+    assert points.xy.tolist() == [[1, 2], [4, 5]]
     assert points.z.tolist() == [3, 6]
     assert list(points.columns) == ["id"]
 
@@ -108,14 +108,14 @@ def test_numbers_only_columns_keep_their_type(read_text):
 )
 def test_columns_can_be_chosen(read_text, columns):
     points = read_text("c,a,b\n9,2,1\n9,4,3\n", columns=columns)
-    assert points.tolist() == [[1, 2], [3, 4]]
+    assert points.xy.tolist() == [[1, 2], [3, 4]]
     assert points.names == ("b", "a")
     assert (points.z is None) == (len(columns) == 2)
 
 
 def test_a_header_alone_is_no_points(read_text):
     points = read_text("x,y,name\n")
-    assert points.shape == (0, 2)
+    assert points.xy.shape == (0, 2)
     assert points.columns["name"].shape == (0,)
 
 
@@ -225,6 +225,6 @@ def test_reading_gives_back_what_was_written(tmp_path_factory, rows):
     path = tmp_path_factory.mktemp("csv") / "points.csv"
     points.write(path)
     again = read(path)
-    assert again.tobytes() == points.tobytes()
+    assert again.xy.tobytes() == points.xy.tobytes()
     if again.columns["text"].dtype.kind == "O":  # else all of them were numbers
         assert again.columns["text"].tolist() == points.columns["text"].tolist()

@@ -41,13 +41,13 @@ def test_standard_output_to_standard_input(monkeypatch, format):
     write(curves(), "-", format=format)
     monkeypatch.setattr(sys, "stdin", Standard(stdout.buffer.getvalue()))
     points = read("-")  # the content says what it is
-    assert sorted(points.tolist()) == sorted(curves().points.tolist())
+    assert sorted(points.xy.tolist()) == sorted(curves().points.xy.tolist())
     assert sorted(points.z.tolist()) == [1, 2, 3, 4]
 
 
 def test_the_format_can_be_told(tmp_path):
     write(curves(), tmp_path / "curves.csv", format="geojson")
-    assert read(tmp_path / "curves.csv", format="geojson").shape == (4, 2)
+    assert read(tmp_path / "curves.csv", format="geojson").xy.shape == (4, 2)
     assert (tmp_path / "curves.csv").read_text().startswith("{")
 
 
@@ -55,7 +55,7 @@ def test_the_format_can_be_told(tmp_path):
 def test_no_points_can_be_written(tmp_path, format):
     write(trace([], []), tmp_path / f"none.{format}")
     if format in ("csv", "tsv", "npz", "geojson"):
-        assert read(tmp_path / f"none.{format}").shape == (0, 2)
+        assert read(tmp_path / f"none.{format}").xy.shape == (0, 2)
 
 
 def test_unknown_formats_are_named(tmp_path):

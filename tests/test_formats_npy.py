@@ -18,23 +18,23 @@ FLOATS = st.floats(allow_nan=False, allow_infinity=False)
 def test_npy_of_two_or_three_columns(tmp_path):
     np.save(tmp_path / "two.npy", np.array([[1, 2], [3, 4]]))
     np.save(tmp_path / "three.npy", np.array([[1, 2, 9], [3, 4, 8]], dtype=np.float32))
-    assert read(tmp_path / "two.npy").tolist() == [[1, 2], [3, 4]]
+    assert read(tmp_path / "two.npy").xy.tolist() == [[1, 2], [3, 4]]
     three = read(tmp_path / "three.npy")
-    assert three.tolist() == [[1, 2], [3, 4]]
+    assert three.xy.tolist() == [[1, 2], [3, 4]]
     assert three.z.tolist() == [9, 8]
 
 
 def test_npy_columns_can_be_chosen(tmp_path):
     np.save(tmp_path / "p.npy", np.arange(10).reshape(2, 5))
     points = read(tmp_path / "p.npy", columns=(4, 0))
-    assert points.tolist() == [[4, 0], [9, 5]]
+    assert points.xy.tolist() == [[4, 0], [9, 5]]
     assert points.columns["column3"].tolist() == [3, 8]
 
 
 def test_npz_of_x_and_y(tmp_path):
     np.savez(tmp_path / "p.npz", y=[2, 4], x=[1, 3], z=[5, 6], name=["a", "b"], other=[1, 2, 3])
     points = read(tmp_path / "p.npz")
-    assert points.tolist() == [[1, 2], [3, 4]]
+    assert points.xy.tolist() == [[1, 2], [3, 4]]
     assert points.z.tolist() == [5, 6]
     assert {name: column.tolist() for name, column in points.columns.items()} == {
         "name": ["a", "b"]
@@ -44,12 +44,12 @@ def test_npz_of_x_and_y(tmp_path):
 def test_npz_of_points_with_heights(tmp_path):
     np.savez(tmp_path / "p.npz", points=[[1, 2, 3]], crs="epsg:4326")
     points = read(tmp_path / "p.npz")
-    assert (points.tolist(), points.z.tolist(), points.crs) == ([[1, 2]], [3], "EPSG:4326")
+    assert (points.xy.tolist(), points.z.tolist(), points.crs) == ([[1, 2]], [3], "EPSG:4326")
 
 
 def test_npz_columns_can_be_chosen(tmp_path):
     np.savez(tmp_path / "p.npz", a=[1, 3], b=[2, 4])
-    assert read(tmp_path / "p.npz", columns=("b", "a")).tolist() == [[2, 1], [4, 3]]
+    assert read(tmp_path / "p.npz", columns=("b", "a")).xy.tolist() == [[2, 1], [4, 3]]
 
 
 @pytest.mark.parametrize("suffix", ["npy", "npz", "unknown"])
@@ -115,7 +115,7 @@ def test_reading_gives_back_what_was_written(tmp_path_factory, rows):
     path = tmp_path_factory.mktemp("npz") / "curves.npz"
     write(curves, path)
     again = read(path)
-    assert again.tobytes() == points.tobytes()
+    assert again.xy.tobytes() == points.xy.tobytes()
     assert again.z.tobytes() == points.z.tobytes()
     assert (again.crs, again.names) == ("EPSG:25832", ("e", "n"))
     assert list(again.columns) == ["a/b", "indices"]

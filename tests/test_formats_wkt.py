@@ -44,9 +44,9 @@ def read_wkt(tmp_path):
 )
 def test_the_same_points_in_many_spellings(read_wkt, text):
     points = read_wkt(text)
-    assert points.tolist() == [[1, 2], [3, 4]]
+    assert points.xy.tolist() == [[1, 2], [3, 4]]
     assert (points.z, points.crs) == (None, None)
-    assert read_wkt(text, "unknown.geometry").tolist() == [[1, 2], [3, 4]]
+    assert read_wkt(text, "unknown.geometry").xy.tolist() == [[1, 2], [3, 4]]
 
 
 @pytest.mark.parametrize(
@@ -59,13 +59,13 @@ def test_the_same_points_in_many_spellings(read_wkt, text):
     ],
 )
 def test_the_vertex_that_closes_a_ring_is_left_out(read_wkt, text):
-    assert read_wkt(text).tolist() == [[0, 0], [4, 0], [0, 4]]
+    assert read_wkt(text).xy.tolist() == [[0, 0], [4, 0], [0, 4]]
 
 
 @pytest.mark.parametrize("text", ["POINT Z (1 2 3)", "POINTZ(1 2 3)", "POINT (1 2 3)"])
 def test_heights(read_wkt, text):
     points = read_wkt(text)
-    assert (points.tolist(), points.z.tolist()) == ([[1, 2]], [3])
+    assert (points.xy.tolist(), points.z.tolist()) == ([[1, 2]], [3])
 
 
 def test_the_reference_system(read_wkt):
@@ -140,6 +140,6 @@ def test_reading_gives_back_what_was_written(tmp_path_factory, rows, heights):
     path = tmp_path_factory.mktemp("wkt") / "points.wkt"
     points.write(path)
     again = read(path)
-    assert again.tobytes() == points.tobytes()
+    assert again.xy.tobytes() == points.xy.tobytes()
     assert (again.z is None) == (not heights)
     assert not heights or again.z.tobytes() == points.z.tobytes()

@@ -11,6 +11,10 @@ def delaunay(points: np.ndarray, *, threads: int) -> crustline.Delaunay:
     return crustline.Delaunay(points, threads=threads)
 
 
+def crust(points: np.ndarray, *, threads: int) -> np.ndarray:
+    return crustline.crust(crustline.Delaunay(points, threads=threads))
+
+
 def edges_of_delaunay(triangulation: crustline.Delaunay) -> np.ndarray:
     return triangulation.edges
 
@@ -20,6 +24,6 @@ METHODS = {
     for threads in (1, 2)
     for name, work, edges_of in (
         ("delaunay", delaunay, edges_of_delaunay),
-        ("crust", crustline.crust, np.asarray),
+        ("crust", crust, np.asarray),
     )
 }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from numbers import Real
 from typing import Any
 
@@ -97,7 +97,7 @@ def _check_shape(array: npt.NDArray[Any]) -> None:
 
 def _as_float64(array: npt.NDArray[Any]) -> FloatArray:
     with np.errstate(over="ignore"):
-        coordinates = np.ascontiguousarray(array, dtype=np.float64)
+        coordinates = np.require(array, np.float64, ["C_CONTIGUOUS", "ALIGNED"])
     wide = array.dtype.itemsize > 8 or (array.dtype.kind in "iu" and array.dtype.itemsize == 8)
     if wide:
         _check_exact(array, coordinates)
@@ -143,6 +143,25 @@ def _fault_of_row(row: Any) -> str | None:
     return None
 
 
+def read_only(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Return the array, which can be written no more."""
+    array.flags.writeable = False
+    return array
+
+
+def equal(one: object, other: object) -> bool:
+    """Return whether two values are equal: arrays by shape and elements, NaN to NaN.
+
+    Numbers of different types are compared by value, as NumPy does.
+    """
+    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
+        floats = one.dtype.kind in "fc" and other.dtype.kind in "fc"
+        return np.array_equal(one, other, equal_nan=floats)
+    if isinstance(one, Mapping) and isinstance(other, Mapping):
+        return list(one) == list(other) and all(equal(one[name], other[name]) for name in one)
+    return type(one) is type(other) and bool(one == other)
+
+
 def as_edges(edges: npt.ArrayLike, n: int) -> IntArray:
     """Return edges between n points as int64 rows i < j, sorted and unique.
 
@@ -156,7 +175,7 @@ def as_edges(edges: npt.ArrayLike, n: int) -> IntArray:
     Returns
     -------
     edges : ndarray of int64, shape (m, 2)
-        i < j in each row, rows sorted, unique.
+        i < j in each row, rows sorted, unique. Read-only.
 
     Raises
     ------
@@ -184,9 +203,9 @@ def as_edges(edges: npt.ArrayLike, n: int) -> IntArray:
             f"edges: row 0 is {array[0].tolist()}, not two integers: pass rows of i, j"
         )
     if array.dtype == np.int64 and array.flags.c_contiguous and _core.is_canonical(array, n):
-        return array  # as what a method returned is
+        return read_only(array.copy()) if array.flags.writeable else array  # as methods' are
     _check_ends(array, n)
-    return _canonical(np.ascontiguousarray(array, dtype=np.int64), n)
+    return read_only(_canonical(np.ascontiguousarray(array, dtype=np.int64), n))
 
 
 def _check_ends(edges: npt.NDArray[Any], n: int) -> None:

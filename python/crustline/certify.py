@@ -11,9 +11,10 @@ import numpy as np
 import numpy.typing as npt
 
 from crustline.arrays import BoolArray, FloatArray, IntArray, as_edges
-from crustline.delaunay import Delaunay
+from crustline.delaunay import Delaunay, as_delaunay
 from crustline.medial import interpolant
-from crustline.methods import crust, triangulation
+from crustline.methods import crust
+from crustline.points import Points
 from crustline.theory import guaranteed_r, sample_angle
 
 if TYPE_CHECKING:
@@ -42,8 +43,8 @@ class Certificate:
 
     Attributes
     ----------
-    points : ndarray of float64, shape (n, 2)
-        The points.
+    points : Points
+        The points, with all that they carry.
     edges : ndarray of int64, shape (m, 2)
         The edges that the certificate is about: i < j in each row, rows sorted.
     ratio : ndarray of float64, shape (m,)
@@ -71,7 +72,7 @@ class Certificate:
         The reasons as numbers: rows of `REASONS`, 0 if there is none.
     """
 
-    points: FloatArray
+    points: Points
     edges: IntArray
     ratio: FloatArray
     sampling_ratio: float
@@ -189,7 +190,7 @@ def certify(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = None
 
     Parameters
     ----------
-    points : array_like of float, shape (n, 2), or Delaunay
+    points : array_like of float, shape (n, 2), Points or Delaunay
         Coordinates, in any one unit. Finite. Repeated points count once, at their first row.
     edges : array_like of int, shape (m, 2), optional
         Rows of points, from any method or by hand; by default the crust.
@@ -244,11 +245,12 @@ def certify(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = None
     >>> certify(circle[::4])
     <Certificate: not guaranteed, 6 weak edges; sampling ratio about 0.518>
     """
-    delaunay = triangulation(points, None, None)
+    delaunay = as_delaunay(points)
     chosen = crust(delaunay) if edges is None else as_edges(edges, len(delaunay))
     smooth = interpolant(delaunay, chosen)
-    ratio, turn, degree = smooth.measures()
-    theorem, threshold, differing = _theorem(delaunay, chosen, smooth.is_beta_skeleton(BETA))
+    ratio, turn, degree = smooth.measures(*delaunay._how)
+    is_beta_skeleton = smooth.is_beta_skeleton(BETA, *delaunay._how)
+    theorem, threshold, differing = _theorem(delaunay, chosen, is_beta_skeleton)
     asked = threshold or guaranteed_r("beta_skeleton", BETA)
     corner = turn > math.pi - float(sample_angle(asked))
     of_points = _reasons_of_points(degree, corner, _without(differing, chosen, len(delaunay)))

@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 import numpy.typing as npt
 
-from crustline.delaunay import Delaunay
+from crustline import _core
+from crustline.arrays import BoolArray, FloatArray, IntArray, as_edges, read_only
+from crustline.delaunay import Delaunay, as_delaunay, points_and_how
 from crustline.methods import crust
+from crustline.points import Points
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-from crustline import _core
-from crustline.arrays import BoolArray, FloatArray, IntArray, as_edges, as_points
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,8 +83,8 @@ class Curves(Sequence[Curve]):
 
     Attributes
     ----------
-    points : Points or ndarray of float64, shape (n, 2)
-        The points that were traced, with what they carry.
+    points : Points
+        The points that were traced, with all that they carry.
     indices : ndarray of int64, shape (k,)
         Rows of the points, curve after curve.
     offsets : ndarray of int64, shape (c + 1,)
@@ -103,7 +103,7 @@ class Curves(Sequence[Curve]):
     ([0, 1, 2, 3], 4.0)
     """
 
-    points: FloatArray
+    points: Points
     indices: IntArray
     offsets: IntArray
     closed: BoolArray
@@ -126,12 +126,7 @@ class Curves(Sequence[Curve]):
 
     def _curve(self, number: int) -> Curve:
         indices = self.indices[self.offsets[number] : self.offsets[number + 1]]
-        return Curve(indices, bool(self.closed[number]), self.coordinates[indices])
-
-    @cached_property
-    def coordinates(self) -> FloatArray:
-        """The points as a plain array, shape (n, 2)."""
-        return np.asarray(self.points)
+        return Curve(indices, bool(self.closed[number]), self.points.xy[indices])
 
     @cached_property
     def _steps(self) -> tuple[IntArray, IntArray, IntArray]:
@@ -147,15 +142,15 @@ class Curves(Sequence[Curve]):
         """The edges that were traced, shape (m, 2): i < j in each row, rows sorted."""
         starts, ends, _ = self._steps
         pairs = np.stack([self.indices[starts], self.indices[ends]], axis=1)
-        return _read_only(as_edges(pairs, len(self.points)))
+        return read_only(as_edges(pairs, len(self.points)))
 
     @cached_property
     def lengths(self) -> FloatArray:
         """The length of every curve, shape (c,), in the unit of the points; float64 accuracy."""
         starts, ends, numbers = self._steps
-        steps = self.coordinates[self.indices[ends]] - self.coordinates[self.indices[starts]]
+        steps = self.points.xy[self.indices[ends]] - self.points.xy[self.indices[starts]]
         lengths = np.hypot(steps[:, 0], steps[:, 1])
-        return _read_only(np.bincount(numbers, weights=lengths, minlength=len(self)))
+        return read_only(np.bincount(numbers, weights=lengths, minlength=len(self)))
 
     @cached_property
     def _degrees(self) -> IntArray:
@@ -194,7 +189,7 @@ class Curves(Sequence[Curve]):
         rings = np.flatnonzero(self.closed).tolist()
         if not rings:
             return []
-        return _nest([self._curve(number).indices for number in rings], self.coordinates)
+        return _nest([self._curve(number).indices for number in rings], self.points.xy)
 
     def write(
         self, path: str | PathLike[str], *, format: str | None = None, polygons: bool = False
@@ -224,7 +219,7 @@ class Curves(Sequence[Curve]):
         return f"<Curves: {words}; {len(self.points)} points>"
 
 
-def trace(points: npt.ArrayLike, edges: npt.ArrayLike) -> Curves:
+def trace(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike) -> Curves:
     """Return edges traced into curves: rings and polylines, split at branches.
 
     A curve runs through points of degree 2 and ends at points of any other degree; a loop based at
@@ -232,8 +227,8 @@ def trace(points: npt.ArrayLike, edges: npt.ArrayLike) -> Curves:
 
     Parameters
     ----------
-    points : array_like of float, shape (n, 2)
-        Coordinates, in any one unit. Finite. A `Points` is kept with all it carries.
+    points : array_like of float, shape (n, 2), Points or Delaunay
+        Coordinates, in any one unit. Finite. What points carry is kept.
     edges : array_like of int, shape (m, 2)
         Rows of `points`, in any order and direction; a repeated edge counts once.
 
@@ -258,10 +253,8 @@ def trace(points: npt.ArrayLike, edges: npt.ArrayLike) -> Curves:
     >>> curves[0].indices.tolist(), curves[0].closed, curves.isolated.tolist()
     ([0, 1, 2], False, [3])
     """
-    coordinates = as_points(points)
-    ragged = _core.trace(coordinates, as_edges(edges, len(coordinates)))
-    kept = points if isinstance(points, np.ndarray) and points.dtype == np.float64 else coordinates
-    return Curves(kept, *map(_read_only, ragged))
+    kept, how = points_and_how(points)
+    return Curves(kept, *_core.trace(kept.xy, as_edges(edges, len(kept)), *how))
 
 
 def reconstruct(
@@ -273,10 +266,10 @@ def reconstruct(
 
     Parameters
     ----------
-    points : array_like of float, shape (n, 2), or Delaunay
-        Coordinates, in any one unit. Finite. A `Points` is kept with all it carries.
+    points : array_like of float, shape (n, 2), Points or Delaunay
+        Coordinates, in any one unit. Finite. What points carry is kept.
     method : callable, default `crust`
-        Takes the points as they were passed and returns edges.
+        Takes the triangulation of the points and returns edges.
     **parameters
         Passed on to the method, such as ``beta=1.5`` for `beta_skeleton`.
 
@@ -296,13 +289,8 @@ def reconstruct(
     >>> curves[0].indices.tolist(), curves[0].closed
     ([0, 2, 1, 3], True)
     """
-    edges = method(points, **parameters)
-    return trace(points.points if isinstance(points, Delaunay) else points, edges)
-
-
-def _read_only(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    array.flags.writeable = False
-    return array
+    delaunay = as_delaunay(points)
+    return trace(delaunay, method(delaunay, **parameters))
 
 
 # Nesting. Every ring asks one point of its own for the rings around it: the ones whose edges a ray

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from crustline import _core
-from crustline.arrays import as_points
-from crustline.errors import InputError
+from crustline.arrays import read_only
+from crustline.points import Points
+from crustline.scalars import as_whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -19,27 +20,35 @@ if TYPE_CHECKING:
 Progress = Callable[[str, float], object]
 """Called now and then during a long call with the name of a stage and the fraction of it done."""
 
+How = tuple[int | None, Progress | None]
+"""How a long call is to run: on so many threads, reporting its progress to this."""
+
+Made = TypeVar("Made")
+
 
 class Delaunay:
     """The Delaunay triangulation of points: triangles whose circles hold no point inside.
 
-    Make one to share the work between several methods, each of which takes it in place of points.
+    Make one to share the work: every function that takes points takes it in their place, and what
+    rests on the triangulation is computed once.
 
     Parameters
     ----------
-    points : array_like of float, shape (n, 2)
-        Coordinates, in any one unit. Finite. Repeated points count once, at their first row.
+    points : array_like of float, shape (n, 2), or Points
+        Coordinates, in any one unit. Finite. Repeated points count once, at their first row. An
+        array is copied.
     threads : int, optional
-        How many threads to use; by default `RAYON_NUM_THREADS`, or one a core. The result is the
-        same, bit for bit, for any number.
+        How many threads to use, here and in every function that is given the triangulation; by
+        default `RAYON_NUM_THREADS`, or one a core. The results are the same, bit for bit, for any
+        number.
     progress : callable, optional
-        Called now and then with the name of a stage ("sort", "triangulate", "stars") and the
-        fraction of it that is done.
+        Called now and then, here and in every such function, with the name of a stage ("sort",
+        "triangulate", "stars", "select" …) and the fraction of it that is done.
 
     Attributes
     ----------
-    points : ndarray of float64, shape (n, 2)
-        The points as given, repeated ones included.
+    points : Points
+        The points as given, repeated ones included, with all that they carry.
     triangles : ndarray of int64, shape (t, 3)
         Rows of `points`, counter-clockwise. Empty if all points lie on one line.
     neighbors : ndarray of int64, shape (t, 3)
@@ -94,23 +103,59 @@ class Delaunay:
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> None:
-        rows = as_points(points)
-        self._core = _core.Delaunay(rows, check_threads(threads), progress)
-        self._points = rows
+        self.points = points if isinstance(points, Points) else Points(points)
+        self._how = (None if threads is None else as_whole("threads", threads, 1), progress)
+        self._core = _core.Delaunay(self.points.xy, *self._how)
+        self._made: dict[str, Any] = {}
 
     def __len__(self) -> int:
         """The number of rows of `points`."""
-        return len(self._points)
+        return len(self.points)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        """Return the coordinates of the points."""
+        return np.array(self.points.xy, dtype=dtype, copy=copy)
 
     def __repr__(self) -> str:
-        return f"<crustline.Delaunay of {len(self):,} points>"
+        return f"<Delaunay: {len(self):,} point{'s' * (len(self) != 1)}>"
 
-    @cached_property
-    def points(self) -> NDArray[np.float64]:
-        """The points as given."""
-        view = self._points.view()
-        view.flags.writeable = False
-        return view
+    def __eq__(self, other: object) -> bool:
+        """Whether the points are equal, with all that they carry: they decide the triangulation."""
+        return self.points == other.points if isinstance(other, Delaunay) else NotImplemented
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __copy__(self) -> Delaunay:
+        return self
+
+    def __deepcopy__(self, memo: object) -> Delaunay:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return partial(Delaunay, threads=self._how[0]), (self.points,)
+
+    def run(self, work: Callable[..., Made], *arguments: object) -> Made:
+        """Return what a function of the core makes of the triangulation, run as was asked for."""
+        return work(self._core, *arguments, *self._how)
+
+    def cached(
+        self, name: str, make: Callable[[], Made], fits: Callable[[Made], bool] | None = None
+    ) -> Made:
+        """Return what was made under a name, if it is there and fits; else make it and keep it.
+
+        Parameters
+        ----------
+        name : str
+            What it is, such as "crust". One thing is kept under each name, the latest.
+        make : callable
+            Makes it, from this triangulation.
+        fits : callable, optional
+            Whether what was kept is the one wanted now.
+        """
+        if name not in self._made or not (fits is None or fits(self._made[name])):
+            self._made[name] = make()
+        made: Made = self._made[name]
+        return made
 
     @cached_property
     def triangles(self) -> NDArray[np.int64]:
@@ -128,8 +173,7 @@ class Delaunay:
         across = np.where(self.halfedges < 0, -1, self.halfedges // 3).reshape(-1, 3)
         # Half-edge k leaves corner k, so the side opposite to it is half-edge k + 1.
         opposite = np.roll(across, -1, axis=1)
-        opposite.flags.writeable = False
-        return opposite
+        return read_only(opposite)
 
     @cached_property
     def hull(self) -> NDArray[np.int64]:
@@ -163,10 +207,13 @@ class Delaunay:
         return plot_delaunay(self, ax, **options)
 
 
-def check_threads(threads: int | None) -> int | None:
-    """Return `threads` if it is a number of threads that can be had."""
-    if threads is None:
-        return None
-    if isinstance(threads, bool) or not isinstance(threads, (int, np.integer)) or threads < 1:
-        raise InputError(f"threads must be a whole number of at least 1, not {threads!r}")
-    return int(threads)
+def as_delaunay(points: ArrayLike | Delaunay) -> Delaunay:
+    """Return a triangulation as it is, and else the one of the points."""
+    return points if isinstance(points, Delaunay) else Delaunay(points)
+
+
+def points_and_how(points: ArrayLike | Delaunay) -> tuple[Points, How]:
+    """Return points with all that they carry, and how long calls about them are to run."""
+    if isinstance(points, Delaunay):
+        return points.points, points._how
+    return points if isinstance(points, Points) else Points(points), (None, None)

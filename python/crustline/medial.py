@@ -9,7 +9,6 @@ import os
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
-from weakref import WeakKeyDictionary
 
 import numpy as np
 import numpy.typing as npt
@@ -17,9 +16,9 @@ import numpy.typing as npt
 from crustline import _core
 from crustline.arrays import BoolArray, FloatArray, IntArray, as_edges
 from crustline.curves import Curves, trace
-from crustline.delaunay import Delaunay
+from crustline.delaunay import Delaunay, as_delaunay
 from crustline.errors import InputError
-from crustline.methods import crust, triangulation
+from crustline.methods import crust
 from crustline.points import Points
 
 if TYPE_CHECKING:
@@ -57,12 +56,10 @@ class MedialAxis:
     ray_samples : ndarray of int64, shape (s, 2)
         The two rows of the points that it separates, i < j, rows sorted. Rays are outside of all
         rings.
-    points : ndarray of float64, shape (n, 2)
-        The points.
+    points : Points
+        The points, with all that they carry.
     selected : ndarray of int64, shape (e, 2)
-        The edges of the curves, as they were passed.
-    crs : str or None
-        The coordinate reference system of the points, for `write`.
+        The edges of the curves: i < j in each row, rows sorted.
     """
 
     vertices: FloatArray
@@ -73,9 +70,8 @@ class MedialAxis:
     ray_origins: IntArray
     ray_directions: FloatArray
     ray_samples: IntArray
-    points: FloatArray = field(repr=False)
+    points: Points = field(repr=False)
     selected: IntArray = field(repr=False)
-    crs: str | None = None
 
     def clipped(self, box: npt.ArrayLike) -> FloatArray:
         """Return the part in a box as segments, unbounded edges included.
@@ -240,7 +236,7 @@ class MedialAxis:
             Of points of their own: the vertices, and where the box cuts the axis.
         """
         vertices, edges = self._clipped(self._box() if box is None else _as_box(box))
-        return trace(Points(vertices, crs=self.crs), edges)
+        return trace(Points(vertices, crs=self.points.crs), edges)
 
     def write(
         self,
@@ -265,7 +261,7 @@ class MedialAxis:
     def _box(self) -> FloatArray:
         if not len(self.points):
             return np.array([0.0, 0.0, 1.0, 1.0])
-        low, high = self.points.min(axis=0), self.points.max(axis=0)
+        low, high = self.points.xy.min(axis=0), self.points.xy.max(axis=0)
         margin = MARGIN * float((high - low).max()) or 1.0
         return np.concatenate([low - margin, high + margin])
 
@@ -289,7 +285,7 @@ def medial_axis(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = 
 
     Parameters
     ----------
-    points : array_like of float, shape (n, 2), or Delaunay
+    points : array_like of float, shape (n, 2), Points or Delaunay
         Coordinates, in any one unit. Finite. Repeated points count once, at their first row.
     edges : array_like of int, shape (m, 2), optional
         The curves' edges, as rows of the points; by default the crust.
@@ -334,11 +330,10 @@ def medial_axis(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = 
     >>> axis.vertices[axis.edges].tolist()
     [[[0.5, 0.5], [1.5, 0.5]], [[1.5, 0.5], [2.5, 0.5]]]
     """
-    delaunay = triangulation(points, None, None)
+    delaunay = as_delaunay(points)
     selected = crust(delaunay) if edges is None else as_edges(edges, len(delaunay))
-    fields = _core.medial_axis(delaunay._core, selected)
-    crs = points.crs if isinstance(points, Points) else None
-    return MedialAxis(**fields, points=delaunay.points, selected=selected, crs=crs)
+    fields = delaunay.run(_core.medial_axis, selected)
+    return MedialAxis(**fields, points=delaunay.points, selected=selected)
 
 
 def local_feature_size(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike) -> FloatArray:
@@ -346,7 +341,7 @@ def local_feature_size(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike) -
 
     Parameters
     ----------
-    points : array_like of float, shape (n, 2), or Delaunay
+    points : array_like of float, shape (n, 2), Points or Delaunay
         Coordinates, in any one unit. Finite.
     edges : array_like of int, shape (m, 2)
         The curves' edges, as rows of the points.
@@ -391,11 +386,8 @@ def local_feature_size(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike) -
     >>> local_feature_size(circle, [(i, (i + 1) % 24) for i in range(24)]).round(6)[:3]
     array([1., 1., 1.])
     """
-    delaunay = triangulation(points, None, None)
+    delaunay = as_delaunay(points)
     return interpolant(delaunay, as_edges(edges, len(delaunay))).sizes()
-
-
-_latest: WeakKeyDictionary[Delaunay, _core.Interpolant] = WeakKeyDictionary()
 
 
 def interpolant(delaunay: Delaunay, edges: IntArray) -> _core.Interpolant:
@@ -403,12 +395,11 @@ def interpolant(delaunay: Delaunay, edges: IntArray) -> _core.Interpolant:
 
     The local feature size and the certificate rest on the same, and it is most of their work.
     """
-    known = _latest.get(delaunay)
-    if known is not None and known.is_of(edges):
-        return known
-    made = _core.Interpolant(delaunay._core, edges)
-    _latest[delaunay] = made
-    return made
+    return delaunay.cached(
+        "interpolant",
+        lambda: delaunay.run(_core.Interpolant, edges),
+        fits=lambda known: known.is_of(edges),
+    )
 
 
 def _as_box(box: npt.ArrayLike) -> FloatArray:

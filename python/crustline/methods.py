@@ -17,20 +17,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from crustline import _core
 from crustline.arrays import as_points
-from crustline.delaunay import Delaunay, Progress, check_threads
+from crustline.delaunay import Delaunay, as_delaunay, points_and_how
 from crustline.errors import InputError
 
 Edges = NDArray[np.int64]
 Method = Callable[..., Edges]
-
-
-def triangulation(
-    points: ArrayLike | Delaunay, threads: int | None, progress: Progress | None
-) -> Delaunay:
-    """Return `points` if it is a triangulation already, else its triangulation."""
-    if isinstance(points, Delaunay):
-        return points
-    return Delaunay(points, threads=threads, progress=progress)
 
 
 def check_number(name: str, value: object) -> float:
@@ -61,9 +52,6 @@ def check_size(name: str, value: object) -> float:
 
 def crust(
     points: ArrayLike | Delaunay,
-    *,
-    threads: int | None = None,
-    progress: Progress | None = None,
 ) -> Edges:
     """Return the crust of points: edges with an empty disk that avoids the Voronoi vertices.
 
@@ -76,11 +64,6 @@ def crust(
     ----------
     points : array_like of float, shape (n, 2), or Delaunay
         Coordinates, in any one unit. Finite. Repeated points count once, at their first row.
-    threads : int, optional
-        How many threads to use; by default `RAYON_NUM_THREADS`, or one a core. The edges are the
-        same for any number.
-    progress : callable, optional
-        Called now and then with the name of a stage and the fraction of it that is done.
 
     Returns
     -------
@@ -109,8 +92,7 @@ def crust(
     >>> crust([(0, 0), (1, 0), (1, 1), (0, 1)]).tolist()
     [[0, 1], [0, 3], [1, 2], [2, 3]]
     """
-    delaunay = triangulation(points, threads, progress)
-    return _core.crust(delaunay._core, check_threads(threads), progress)
+    return as_delaunay(points).run(_core.crust)
 
 
 def beta_skeleton(
@@ -118,8 +100,6 @@ def beta_skeleton(
     beta: float = 1.70,
     *,
     kind: Literal["circle", "lune"] = "circle",
-    threads: int | None = None,
-    progress: Progress | None = None,
 ) -> Edges:
     """Return the β-skeleton of points: edges whose forbidden region holds no point.
 
@@ -139,10 +119,6 @@ def beta_skeleton(
         "lune" is the other family of Kirkpatrick and Radke [2]_: for β ≥ 1 the region is the
         intersection of the two open disks of radius β d / 2 that touch one of the points each and
         are centered on the line through both. For β ≤ 1 the two are the same.
-    threads : int, optional
-        How many threads to use; by default `RAYON_NUM_THREADS`, or one a core.
-    progress : callable, optional
-        Called now and then with the name of a stage and the fraction of it that is done.
 
     Returns
     -------
@@ -187,17 +163,11 @@ def beta_skeleton(
     size = check_positive("beta", beta)
     if kind not in ("circle", "lune"):
         raise InputError(f'kind must be "circle" or "lune", not {kind!r:.60}')
-    delaunay = triangulation(points, threads, progress)
-    return _core.beta_skeleton(
-        delaunay._core, size, kind == "lune", check_threads(threads), progress
-    )
+    return as_delaunay(points).run(_core.beta_skeleton, size, kind == "lune")
 
 
 def gabriel(
     points: ArrayLike | Delaunay,
-    *,
-    threads: int | None = None,
-    progress: Progress | None = None,
 ) -> Edges:
     """Return the Gabriel graph of points: edges whose diametral disk holds no point.
 
@@ -208,10 +178,6 @@ def gabriel(
     ----------
     points : array_like of float, shape (n, 2), or Delaunay
         Coordinates, in any one unit. Finite. Repeated points count once, at their first row.
-    threads : int, optional
-        How many threads to use; by default `RAYON_NUM_THREADS`, or one a core.
-    progress : callable, optional
-        Called now and then with the name of a stage and the fraction of it that is done.
 
     Returns
     -------
@@ -239,15 +205,11 @@ def gabriel(
     >>> gabriel([(0, 0), (4, 0), (2, 1), (2, 9)]).tolist()
     [[0, 2], [1, 2], [2, 3]]
     """
-    delaunay = triangulation(points, threads, progress)
-    return _core.gabriel(delaunay._core, check_threads(threads), progress)
+    return as_delaunay(points).run(_core.gabriel)
 
 
 def relative_neighborhood(
     points: ArrayLike | Delaunay,
-    *,
-    threads: int | None = None,
-    progress: Progress | None = None,
 ) -> Edges:
     """Return the relative neighborhood graph: edges with no point nearer to both of their ends.
 
@@ -258,10 +220,6 @@ def relative_neighborhood(
     ----------
     points : array_like of float, shape (n, 2), or Delaunay
         Coordinates, in any one unit. Finite. Repeated points count once, at their first row.
-    threads : int, optional
-        How many threads to use; by default `RAYON_NUM_THREADS`, or one a core.
-    progress : callable, optional
-        Called now and then with the name of a stage and the fraction of it that is done.
 
     Returns
     -------
@@ -289,15 +247,11 @@ def relative_neighborhood(
     >>> relative_neighborhood([(0, 0), (4, 0), (2, 3), (2, 9)]).tolist()
     [[0, 2], [1, 2], [2, 3]]
     """
-    delaunay = triangulation(points, threads, progress)
-    return _core.relative_neighborhood(delaunay._core, check_threads(threads), progress)
+    return as_delaunay(points).run(_core.relative_neighborhood)
 
 
 def one_step_crust(
     points: ArrayLike | Delaunay,
-    *,
-    threads: int | None = None,
-    progress: Progress | None = None,
 ) -> Edges:
     """Return the one-step crust of points: edges whose opposite angles sum to at most 90°.
 
@@ -309,10 +263,6 @@ def one_step_crust(
     ----------
     points : array_like of float, shape (n, 2), or Delaunay
         Coordinates, in any one unit. Finite. Repeated points count once, at their first row.
-    threads : int, optional
-        How many threads to use; by default `RAYON_NUM_THREADS`, or one a core.
-    progress : callable, optional
-        Called now and then with the name of a stage and the fraction of it that is done.
 
     Returns
     -------
@@ -339,17 +289,13 @@ def one_step_crust(
     >>> one_step_crust([(0, 0), (1, 0), (1, 1), (0, 1)]).tolist()
     [[0, 1], [0, 3], [1, 2], [2, 3]]
     """
-    delaunay = triangulation(points, threads, progress)
-    return _core.one_step_crust(delaunay._core, check_threads(threads), progress)
+    return as_delaunay(points).run(_core.one_step_crust)
 
 
 def gamma_graph(
     points: ArrayLike | Delaunay,
     c0: float,
     c1: float,
-    *,
-    threads: int | None = None,
-    progress: Progress | None = None,
 ) -> Edges:
     r"""Return the γ-neighborhood graph: edges with no point in two disks of different sizes.
 
@@ -369,10 +315,6 @@ def gamma_graph(
         Coordinates, in any one unit. Finite. Repeated points count once, at their first row.
     c0, c1 : float
         The sizes of the two disks, from -1 to 1, in any order.
-    threads : int, optional
-        How many threads to use; by default `RAYON_NUM_THREADS`, or one a core.
-    progress : callable, optional
-        Called now and then with the name of a stage and the fraction of it that is done.
 
     Returns
     -------
@@ -411,16 +353,12 @@ def gamma_graph(
     True
     """
     size0, size1 = check_size("c0", c0), check_size("c1", c1)
-    delaunay = triangulation(points, threads, progress)
-    return _core.gamma_graph(delaunay._core, size0, size1, check_threads(threads), progress)
+    return as_delaunay(points).run(_core.gamma_graph, size0, size1)
 
 
 def crossing_angle_graph(
     points: ArrayLike | Delaunay,
     angle: float,
-    *,
-    threads: int | None = None,
-    progress: Progress | None = None,
 ) -> Edges:
     """Return the edges that two empty disks touch whose circles cross at an angle or more.
 
@@ -436,10 +374,6 @@ def crossing_angle_graph(
         Coordinates, in any one unit. Finite. Repeated points count once, at their first row.
     angle : float
         In radians, above 0 and below π.
-    threads : int, optional
-        How many threads to use; by default `RAYON_NUM_THREADS`, or one a core.
-    progress : callable, optional
-        Called now and then with the name of a stage and the fraction of it that is done.
 
     Returns
     -------
@@ -476,16 +410,12 @@ def crossing_angle_graph(
     if not 0 < number < math.pi:
         raise InputError(f"angle must be in radians, above 0 and below pi, not {angle!r:.60}")
     cotangent = math.tan(math.pi / 2 - number)
-    delaunay = triangulation(points, threads, progress)
-    return _core.crossing_angle_graph(delaunay._core, cotangent, check_threads(threads), progress)
+    return as_delaunay(points).run(_core.crossing_angle_graph, cotangent)
 
 
 def alpha_shape(
     points: ArrayLike | Delaunay,
     radius: float,
-    *,
-    threads: int | None = None,
-    progress: Progress | None = None,
 ) -> Edges:
     """Return the α-shape of points: edges that an empty disk of the given radius touches.
 
@@ -499,10 +429,6 @@ def alpha_shape(
         Coordinates, in any one unit. Finite. Repeated points count once, at their first row.
     radius : float
         The radius of the disks, in the unit of the points. Positive and finite.
-    threads : int, optional
-        How many threads to use; by default `RAYON_NUM_THREADS`, or one a core.
-    progress : callable, optional
-        Called now and then with the name of a stage and the fraction of it that is done.
 
     Returns
     -------
@@ -536,16 +462,12 @@ def alpha_shape(
     [[0, 3], [0, 4], [1, 2], [1, 4], [2, 4], [3, 4]]
     """
     size = check_positive("radius", radius)
-    delaunay = triangulation(points, threads, progress)
-    return _core.alpha_shape(delaunay._core, size, check_threads(threads), progress)
+    return as_delaunay(points).run(_core.alpha_shape, size)
 
 
 def a_shape(
     points: ArrayLike | Delaunay,
     extra: ArrayLike,
-    *,
-    threads: int | None = None,
-    progress: Progress | None = None,
 ) -> Edges:
     """Return the 𝒜-shape of points: edges with an empty disk that avoids extra points, too.
 
@@ -558,10 +480,6 @@ def a_shape(
         Coordinates, in any one unit. Finite. Repeated points count once, at their first row.
     extra : array_like of float, shape (k, 2)
         Points that the disks avoid, in the same unit. One that is also in `points` changes nothing.
-    threads : int, optional
-        How many threads to use; by default `RAYON_NUM_THREADS`, or one a core.
-    progress : callable, optional
-        Called now and then with the name of a stage and the fraction of it that is done.
 
     Returns
     -------
@@ -593,10 +511,9 @@ def a_shape(
     >>> a_shape(points, [(2, 2)]).tolist() == crust(points).tolist()
     True
     """
-    own = points.points if isinstance(points, Delaunay) else as_points(points)
-    added = as_extra(extra)
-    together = Delaunay(np.concatenate((own, added)), threads=threads, progress=progress)
-    return _core.a_shape(together._core, len(own), check_threads(threads), progress)
+    own, (threads, progress) = points_and_how(points)
+    together = np.concatenate((own.xy, as_extra(extra)))
+    return Delaunay(together, threads=threads, progress=progress).run(_core.a_shape, len(own))
 
 
 def as_extra(extra: ArrayLike) -> NDArray[np.float64]:
@@ -609,9 +526,6 @@ def as_extra(extra: ArrayLike) -> NDArray[np.float64]:
 
 def rcgh(
     points: ArrayLike | Delaunay,
-    *,
-    threads: int | None = None,
-    progress: Progress | None = None,
 ) -> Edges:
     """Return the Delaunay edges that are no longer than their dual Voronoi edges.
 
@@ -623,10 +537,6 @@ def rcgh(
     ----------
     points : array_like of float, shape (n, 2), or Delaunay
         Coordinates, in any one unit. Finite. Repeated points count once, at their first row.
-    threads : int, optional
-        How many threads to use; by default `RAYON_NUM_THREADS`, or one a core.
-    progress : callable, optional
-        Called now and then with the name of a stage and the fraction of it that is done.
 
     Returns
     -------
@@ -653,15 +563,11 @@ def rcgh(
     >>> rcgh([(0, 0), (4, 0), (8, 0), (0, 1), (4, 1), (8, 1)]).tolist()
     [[0, 1], [0, 3], [1, 2], [1, 4], [2, 5], [3, 4], [4, 5]]
     """
-    delaunay = triangulation(points, threads, progress)
-    return _core.rcgh(delaunay._core, check_threads(threads), progress)
+    return as_delaunay(points).run(_core.rcgh)
 
 
 def nn_crust(
     points: ArrayLike | Delaunay,
-    *,
-    threads: int | None = None,
-    progress: Progress | None = None,
 ) -> Edges:
     """Return the NN-crust of points: edges to the nearest, and to the nearest on the other side.
 
@@ -673,10 +579,6 @@ def nn_crust(
     ----------
     points : array_like of float, shape (n, 2), or Delaunay
         Coordinates, in any one unit. Finite. Repeated points count once, at their first row.
-    threads : int, optional
-        How many threads to use; by default `RAYON_NUM_THREADS`, or one a core.
-    progress : callable, optional
-        Called now and then with the name of a stage and the fraction of it that is done.
 
     Returns
     -------
@@ -705,15 +607,11 @@ def nn_crust(
     >>> nn_crust([(0, 0), (3, 0), (5, 2), (3, 5), (0, 3)]).tolist()
     [[0, 1], [0, 4], [1, 2], [2, 3], [3, 4]]
     """
-    delaunay = triangulation(points, threads, progress)
-    return _core.nn_crust(delaunay._core, check_threads(threads), progress)
+    return as_delaunay(points).run(_core.nn_crust)
 
 
 def minimum_spanning_tree(
     points: ArrayLike | Delaunay,
-    *,
-    threads: int | None = None,
-    progress: Progress | None = None,
 ) -> Edges:
     """Return the Euclidean minimum spanning tree: the shortest edges that join all points.
 
@@ -725,10 +623,6 @@ def minimum_spanning_tree(
     ----------
     points : array_like of float, shape (n, 2), or Delaunay
         Coordinates, in any one unit. Finite. Repeated points count once, at their first row.
-    threads : int, optional
-        How many threads to use; by default `RAYON_NUM_THREADS`, or one a core.
-    progress : callable, optional
-        Called now and then with the name of a stage and the fraction of it that is done.
 
     Returns
     -------
@@ -755,8 +649,7 @@ def minimum_spanning_tree(
     >>> minimum_spanning_tree([(0, 0), (1, 0), (1, 1), (0, 1)]).tolist()
     [[0, 1], [0, 3], [2, 3]]
     """
-    delaunay = triangulation(points, threads, progress)
-    return _core.minimum_spanning_tree(delaunay._core, check_threads(threads), progress)
+    return as_delaunay(points).run(_core.minimum_spanning_tree)
 
 
 METHODS: dict[str, Method] = {

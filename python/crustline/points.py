@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Self
+from collections.abc import Iterator, Mapping, Sequence
+from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from crustline.arrays import FloatArray, as_points
+from crustline.arrays import FloatArray, as_points, equal, read_only
 from crustline.errors import InputError
 
 Column = npt.NDArray[Any]
 
 
-class Points(np.ndarray[tuple[int, int], np.dtype[np.float64]]):
-    """An (n, 2) float64 array of points that carries heights, other columns and a CRS.
+class Points:
+    """Points of the plane, with heights, other columns and a CRS beside them; none of it changes.
 
-    It behaves as the array of its coordinates. What is computed from it (a slice, a sum, a
-    transpose) is a plain ndarray, because the rows beside it would no longer fit; a copy or a
-    pickle keeps all.
+    Every function of crustline takes them in place of an array, and ``numpy.asarray(points)`` is
+    `xy`. They are indexed and iterated as `xy` is; arithmetic is that of ``points.xy``.
 
     Parameters
     ----------
@@ -35,6 +35,19 @@ class Points(np.ndarray[tuple[int, int], np.dtype[np.float64]]):
         The coordinate reference system, such as "EPSG:4326".
     names : pair of str, default ("x", "y")
         What the input calls the two coordinate columns.
+
+    Attributes
+    ----------
+    xy : ndarray of float64, shape (n, 2)
+        The coordinates.
+    z : ndarray of float64, shape (n,), or None
+        The heights.
+    columns : mapping of str to ndarray, shape (n,)
+        The other columns. All arrays are read-only.
+    crs : str or None
+        The coordinate reference system.
+    names : tuple of str
+        What the input calls x and y.
 
     Raises
     ------
@@ -51,68 +64,73 @@ class Points(np.ndarray[tuple[int, int], np.dtype[np.float64]]):
     array([3., 4.])
     """
 
+    __slots__ = ("columns", "crs", "names", "xy", "z")
+
+    xy: FloatArray
     z: FloatArray | None
-    columns: dict[str, Column]
+    columns: Mapping[str, Column]
     crs: str | None
     names: tuple[str, str]
 
-    def __new__(
-        cls,
+    def __init__(
+        self,
         coordinates: npt.ArrayLike,
         *,
         z: npt.ArrayLike | None = None,
         columns: Mapping[str, npt.ArrayLike] | None = None,
         crs: str | None = None,
         names: Sequence[str] = ("x", "y"),
-    ) -> Self:
-        points = np.array(as_points(coordinates)).view(cls)
-        n = len(points)
-        points.z = None if z is None else _as_heights(z, n)
-        points.columns = {
-            name: _as_column(name, values, n) for name, values in (columns or {}).items()
-        }
-        points.crs = crs
-        points.names = (str(names[0]), str(names[1]))
-        return points
-
-    def __array_finalize__(self, other: npt.NDArray[Any] | None) -> None:
-        self.z = None
-        self.columns = {}
-        self.crs = None
-        self.names = ("x", "y")
-
-    def __getitem__(self, key: Any) -> Any:
-        return np.asarray(self)[key]
-
-    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **kwargs: Any) -> Any:
-        out = kwargs.get("out")
-        if out is not None:
-            kwargs["out"] = tuple(_plain(each) for each in out)
-        result = getattr(ufunc, method)(*map(_plain, inputs), **kwargs)
-        # `points += 1` must leave the name bound to the Points, not to its bare coordinates.
-        return out[0] if out is not None and len(out) == 1 and out[0] is not None else result
-
-    def __array_function__(self, func: Any, types: Any, args: Any, kwargs: Any) -> Any:
-        result = super().__array_function__(func, types, args, kwargs)
-        return (
-            type(result)(map(_plain, result)) if type(result) in (tuple, list) else _plain(result)
+    ) -> None:
+        xy = read_only(np.array(as_points(coordinates)))
+        self._set(
+            xy=xy,
+            z=None if z is None else _as_heights(z, len(xy)),
+            columns=_as_columns({} if columns is None else columns, len(xy)),
+            crs=_as_crs(crs),
+            names=_as_names(names),
         )
 
+    def _set(self, **values: object) -> None:
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"points do not change: make others with replace({name}=…)")
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError("points do not change")
+
+    def __len__(self) -> int:
+        return len(self.xy)
+
+    def __getitem__(self, key: Any) -> Any:
+        return self.xy[key]
+
+    def __iter__(self) -> Iterator[FloatArray]:
+        return iter(self.xy)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> npt.NDArray[Any]:
+        """Return the coordinates."""
+        return np.array(self.xy, dtype=dtype, copy=copy)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether coordinates and all that is beside them are equal, NaN to NaN."""
+        if not isinstance(other, Points):
+            return NotImplemented
+        return all(equal(getattr(self, name), getattr(other, name)) for name in self.__slots__)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __copy__(self) -> Points:
+        return self
+
+    def __deepcopy__(self, memo: object) -> Points:
+        return self
+
     def __reduce__(self) -> tuple[Any, ...]:
-        state = (np.asarray(self), self.z, self.columns, self.crs, self.names)
-        return _rebuild, (type(self), *state)
+        return _rebuild, (self.xy, self.z, dict(self.columns), self.crs, self.names)
 
-    def __reduce_ex__(self, protocol: Any) -> tuple[Any, ...]:
-        return self.__reduce__()
-
-    def copy(self, order: Any = "C") -> Self:
-        """Return a copy with copies of all that the points carry."""
-        columns = {name: column.copy() for name, column in self.columns.items()}
-        z = None if self.z is None else self.z.copy()
-        copied: Self = _rebuild(type(self), np.asarray(self), z, columns, self.crs, self.names)
-        return copied
-
-    def select(self, rows: npt.ArrayLike) -> Self:
+    def select(self, rows: npt.ArrayLike) -> Points:
         """Return some of the rows, with all that they carry.
 
         Parameters
@@ -130,8 +148,18 @@ class Points(np.ndarray[tuple[int, int], np.dtype[np.float64]]):
         chosen = chosen if chosen.size else chosen.astype(np.int64)
         columns = {name: column[chosen] for name, column in self.columns.items()}
         z = None if self.z is None else self.z[chosen]
-        selected: Self = _rebuild(type(self), self[chosen], z, columns, self.crs, self.names)
-        return selected
+        return _rebuild(self.xy[chosen], z, columns, self.crs, self.names)
+
+    def replace(self, **changes: Any) -> Points:
+        """Return the points with other `z`, `columns`, `crs` or `names`.
+
+        Examples
+        --------
+        >>> Points([(8.5, 47.4)], names=("lon", "lat")).replace(crs="EPSG:4326")
+        <Points: 1 row of lon, lat; crs EPSG:4326>
+        """
+        kept = {name: getattr(self, name) for name in self.__slots__ if name != "xy"}
+        return Points(self.xy, **(kept | changes))
 
     def write(self, path: str | os.PathLike[str], *, format: str | None = None) -> None:
         """Write the points to a file, whole or not at all, so that `crustline.read` gets them back.
@@ -169,26 +197,31 @@ class Points(np.ndarray[tuple[int, int], np.dtype[np.float64]]):
 
         write_points(self, path, format=format)
 
-    def __copy__(self) -> Self:
-        return self.copy()
-
-    def __deepcopy__(self, memo: Any) -> Self:
-        return self.copy()
-
     def __repr__(self) -> str:
         carried = ["z"] * (self.z is not None) + list(self.columns)
         beside = f", beside them {', '.join(carried)}" if carried else ""
-        return f"<Points: {len(self)} rows of {', '.join(self.names)}{beside}; crs {self.crs}>"
-
-
-def _plain(value: Any) -> Any:
-    return value.view(np.ndarray) if isinstance(value, Points) else value
+        rows = f"{len(self):,} row{'s' * (len(self) != 1)} of {', '.join(self.names)}"
+        return f"<Points: {rows}{beside}; crs {self.crs}>"
 
 
 def _rebuild(
-    cls: type[Points], coordinates: FloatArray, z: Any, columns: Any, crs: Any, names: Any
-) -> Any:
-    return cls(coordinates, z=z, columns=columns, crs=crs, names=names)
+    xy: FloatArray,
+    z: FloatArray | None,
+    columns: dict[str, Column],
+    crs: str | None,
+    names: tuple[str, str],
+) -> Points:
+    """Return Points of arrays that fit already and that no one else holds."""
+    points = object.__new__(Points)
+    frozen = {name: read_only(column) for name, column in columns.items()}
+    points._set(
+        xy=read_only(xy),
+        z=None if z is None else read_only(z),
+        columns=MappingProxyType(frozen),
+        crs=crs,
+        names=names,
+    )
+    return points
 
 
 def _as_heights(z: npt.ArrayLike, n: int) -> FloatArray:
@@ -202,11 +235,23 @@ def _as_heights(z: npt.ArrayLike, n: int) -> FloatArray:
     if not finite.all():
         row = int(np.argmin(finite))
         raise InputError(f"z: row {row} is {heights[row]}, which is not finite: repair the height")
-    return heights
+    return read_only(heights)
+
+
+def _as_columns(columns: object, n: int) -> Mapping[str, Column]:
+    if not isinstance(columns, Mapping):
+        raise InputError(f"columns is {columns!r:.60}, not a mapping: pass {{name: values}}")
+    for name in columns:
+        if not isinstance(name, str):
+            raise InputError(f"columns: the name {name!r:.60} is not text: pass names of type str")
+    return MappingProxyType({name: _as_column(name, each, n) for name, each in columns.items()})
 
 
 def _as_column(name: str, values: npt.ArrayLike, n: int) -> Column:
-    column = np.asarray(values)
+    try:
+        column = np.array(values)
+    except (ValueError, TypeError, OverflowError):
+        raise InputError(f"column {name!r} is not one value a row: pass a flat list") from None
     if column.shape != (n,):
         raise InputError(
             f"column {name!r}: the shape is {column.shape}, not ({n},): pass one value a row"
@@ -214,35 +259,20 @@ def _as_column(name: str, values: npt.ArrayLike, n: int) -> Column:
     text = column.dtype.kind == "O" and set(map(type, column.tolist())) <= {str}
     if not text and column.dtype.kind not in "biufcSUmM":
         raise InputError(f"column {name!r} holds Python objects: convert it to numbers or text")
-    return column
+    return read_only(column)
 
 
-def _returns_plain(name: str) -> Callable[..., Any]:
-    method = getattr(np.ndarray, name)
-
-    def plain_method(self: Points, *args: Any, **kwargs: Any) -> Any:
-        return method(np.asarray(self), *args, **kwargs)
-
-    plain_method.__name__ = name
-    plain_method.__doc__ = f"Return `ndarray.{name}` of the coordinates, as a plain array."
-    return plain_method
+def _as_crs(crs: object) -> str | None:
+    if crs is None or (isinstance(crs, str) and crs.strip()):
+        return crs
+    advice = f"EPSG:{crs}" if isinstance(crs, int) else "EPSG:4326"
+    raise InputError(f"crs is {crs!r:.60}, not text: write it as crs={advice!r}")
 
 
-def _plain_property(name: str) -> property:
-    return property(lambda self: getattr(np.asarray(self), name))
-
-
-# The methods of ndarray that derive another array; without this the result would be a Points that
-# lost its columns. `view` stays, since it is how a Points is made.
-# fmt: off
-_DERIVING = (
-    "all", "any", "argmax", "argmin", "argpartition", "argsort", "astype", "byteswap", "choose",
-    "clip", "compress", "conj", "conjugate", "cumprod", "cumsum", "diagonal", "dot", "flatten",
-    "max", "mean", "min", "nonzero", "prod", "ravel", "repeat", "reshape", "round", "searchsorted",
-    "squeeze", "std", "sum", "swapaxes", "take", "trace", "transpose", "var",
-)
-# fmt: on
-for _name in _DERIVING:
-    setattr(Points, _name, _returns_plain(_name))
-for _name in ("T", "mT", "real", "imag"):
-    setattr(Points, _name, _plain_property(_name))
+def _as_names(names: object) -> tuple[str, str]:
+    match names:
+        case str() | bytes():
+            pass
+        case [str(x), str(y)] if x != y:
+            return x, y
+    raise InputError(f"names is {names!r:.60}: pass two different names, such as ('x', 'y')")

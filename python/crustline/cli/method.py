@@ -15,7 +15,6 @@ from crustline.errors import InputError
 
 if TYPE_CHECKING:
     from crustline.arrays import IntArray
-    from crustline.cli.progress import Progress
     from crustline.delaunay import Delaunay
 
 Command = Callable[..., None]
@@ -29,11 +28,9 @@ class Method:
     function: Callable[..., Any]
     parameters: dict[str, Any]
 
-    def edges(self, delaunay: Delaunay, progress: Progress | None = None) -> IntArray:
+    def edges(self, delaunay: Delaunay) -> IntArray:
         """Return the edges that it selects."""
-        reports = "progress" in signature(self.function).parameters
-        options = {"progress": progress} if reports else {}
-        edges: IntArray = self.function(delaunay, **self.parameters, **options)
+        edges: IntArray = self.function(delaunay, **self.parameters)
         return edges
 
 
@@ -78,7 +75,7 @@ def _setting(text: str) -> tuple[str, Any]:
 
 def _check_parameters(method: Method) -> None:
     known = dict(list(signature(method.function).parameters.items())[1:])
-    own = [each for each in known if each not in ("threads", "progress")]
+    own = list(known)
     given = method.parameters
     for each in given:
         if each not in own:

@@ -55,7 +55,7 @@ def select_edges(source: Source, method: Method, quiet: bool) -> tuple[Points, D
     points = source.read()
     with progress_bar(quiet) as progress:
         delaunay = Delaunay(points, progress=progress)
-        return points, delaunay, method.edges(delaunay, progress)
+        return points, delaunay, method.edges(delaunay)
 
 
 def _count(curves: Curves, delaunay: Delaunay) -> dict[str, int]:

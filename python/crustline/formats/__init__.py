@@ -70,8 +70,7 @@ def read(
     Returns
     -------
     points : Points
-        One row for each point of the file, in its order. An (n, 2) float64 array that carries `z`,
-        `columns`, `crs` and `names`.
+        One row for each point of the file, in its order, with `z`, `columns`, `crs` and `names`.
 
     Raises
     ------
@@ -96,8 +95,8 @@ def read(
     >>> with open(path, "w") as file:
     ...     _ = file.write("lon,lat,name\\n8.5,47.4,Zurich\\n7.4,46.9,Bern\\n")
     >>> points = read(path, crs="EPSG:4326")
-    >>> points.shape, points.columns["name"].tolist()
-    ((2, 2), ['Zurich', 'Bern'])
+    >>> len(points), points.columns["name"].tolist()
+    (2, ['Zurich', 'Bern'])
     """
     chosen = None if columns is None else _check_columns(columns)
     _check_format(format, "read")
@@ -106,7 +105,7 @@ def read(
     key = format or format_of(path, "read") or _sniff(content)
     points: Points = _function("read", key)(content, name, chosen)
     if crs is not None or points.crs is not None:
-        points.crs = normalize_crs(crs if crs is not None else str(points.crs))
+        points = points.replace(crs=normalize_crs(crs if crs is not None else str(points.crs)))
     return points
 
 

@@ -39,10 +39,8 @@ def attributes_of(curves: Curves, reserved: Collection[str] = ()) -> Attributes:
     return attributes_of_points(curves.points, reserved)
 
 
-def attributes_of_points(points: FloatArray, reserved: Collection[str] = ()) -> Attributes:
+def attributes_of_points(points: Points, reserved: Collection[str] = ()) -> Attributes:
     """Return what points carry, for `attributes_of`."""
-    if not isinstance(points, Points):
-        return Attributes(None, {}, None)
     columns: dict[str, npt.NDArray[Any]] = {}
     taken = {*reserved, *points.columns} - (set(reserved) & set(points.columns))
     for name, values in points.columns.items():
@@ -64,7 +62,7 @@ def without_curves(points: Points) -> Curves:
 def coordinates_with_height(curves: Curves, rows: IntArray) -> FloatArray:
     """Return the coordinates of some rows, shape (k, 2), or (k, 3) where there are heights."""
     z = attributes_of(curves).z
-    coordinates = curves.coordinates[rows]
+    coordinates = curves.points.xy[rows]
     return coordinates if z is None else np.column_stack([coordinates, z[rows]])
 
 

@@ -371,8 +371,8 @@ def _result_columns(curves: Curves) -> dict[str, Column]:
         "curve": np.concatenate([np.repeat(np.arange(len(curves)), sizes), np.full(alone, -1)]),
         "order": np.concatenate([order, np.arange(alone)]),
         "row": rows,
-        "x": curves.coordinates[rows, 0],
-        "y": curves.coordinates[rows, 1],
+        "x": curves.points.xy[rows, 0],
+        "y": curves.points.xy[rows, 1],
         "z": rows,
         "closed": np.concatenate([np.repeat(curves.closed, sizes), np.zeros(alone, bool)]).astype(
             int

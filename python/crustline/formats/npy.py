@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from crustline.arrays import FloatArray
 from crustline.errors import FormatError, InputError
 from crustline.formats.attributes import (
     attributes_of_points,
@@ -46,14 +45,13 @@ def read_npz(content: bytes, source: str, columns: Sequence[str | int] | None) -
         points = _with_columns(arrays, names, source)
     else:
         points = _from_arrays(arrays, source, columns)
-    points.crs = None if crs is None else str(crs)
-    return points
+    return points.replace(crs=None if crs is None else str(crs))
 
 
 def write_npz(curves: Curves, *, polygons: bool = False) -> bytes:
     """Return the curves as an archive of arrays, with the points in the order of the input."""
     result = {name: getattr(curves, name) for name in _RESULT}
-    return _archive({"points": curves.coordinates, **result, **_carried(curves.points)})
+    return _archive({"points": curves.points.xy, **result, **_carried(curves.points)})
 
 
 def write_points_npy(points: Points) -> bytes:
@@ -69,7 +67,7 @@ def write_points_npz(points: Points) -> bytes:
     return _archive({"points": np.asarray(points), **_carried(points)})
 
 
-def _carried(points: FloatArray) -> dict[str, Array]:
+def _carried(points: Points) -> dict[str, Array]:
     """Return what points carry, as arrays that need no pickle."""
     attributes = attributes_of_points(points)
     arrays: dict[str, Array] = {}
@@ -80,8 +78,7 @@ def _carried(points: FloatArray) -> dict[str, Array]:
         arrays["z"] = attributes.z
     if attributes.crs is not None:
         arrays["crs"] = np.array(attributes.crs)
-    if isinstance(points, Points):
-        arrays["names"] = np.array(points.names)
+    arrays["names"] = np.array(points.names)
     return arrays
 
 

@@ -40,7 +40,7 @@ class _Frame:
 
 def write_svg(curves: Curves, *, polygons: bool = False) -> bytes:
     """Return a picture of the curves; the same curves give the same text."""
-    frame = frame_of(curves.coordinates)
+    frame = frame_of(curves.points.xy)
     return document(frame, curves, _paths(curves, frame, polygons))
 
 
@@ -97,7 +97,7 @@ def _power(size: float) -> int:
 
 def _paths(curves: Curves, frame: _Frame, polygons: bool) -> Iterator[str]:
     def path(rows: IntArray, closed: bool) -> str:
-        numbers = frame.place(curves.coordinates[rows]).T.tolist()
+        numbers = frame.place(curves.points.xy[rows]).T.tolist()
         positions = map(" ".join, zip(*(map(short, each) for each in numbers), strict=True))
         return f"M{'L'.join(positions)}{'Z' if closed else ''}"
 
@@ -107,7 +107,7 @@ def _paths(curves: Curves, frame: _Frame, polygons: bool) -> Iterator[str]:
     for curve in curves:
         if not (polygons and curve.closed):
             yield element(path(curve.indices, curve.closed))
-    yield from dots(frame.place(curves.coordinates[curves.isolated]))
+    yield from dots(frame.place(curves.points.xy[curves.isolated]))
 
 
 def dots(places: FloatArray) -> Iterator[str]:

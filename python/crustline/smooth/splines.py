@@ -149,7 +149,7 @@ class Splines(Sequence[Spline]):
         """
         from crustline.plot import BLUE, VERMILLION, plot_points
 
-        ax = plot_points(self.curves.coordinates, ax, size=None if points else 0)
+        ax = plot_points(self.curves.points.xy, ax, size=None if points else 0)
         for closed, color in ((True, BLUE), (False, VERMILLION)):
             _draw([each for each in self.splines if each.closed == closed], color, ax)
         return ax
@@ -171,7 +171,7 @@ def _svg(curves: Splines, tolerance: float | None) -> bytes:
     from crustline.formats import svg
 
     beziers = curves.beziers(tolerance)
-    lonely = curves.curves.coordinates[curves.curves.isolated]
+    lonely = curves.curves.points.xy[curves.curves.isolated]
     # Control points enclose their curve.
     frame = svg.frame_of(np.concatenate([lonely, *(each.reshape(-1, 2) for each in beziers)]))
     paths = _svg_paths(curves, [frame.place(each) for each in beziers])
