@@ -25,6 +25,10 @@ from crustline.curves import trace
 from crustline.delaunay import Delaunay
 from crustline.errors import InputError, MissingExtraError
 from crustline.methods import crust
+from crustline.plot.axes import CHUNK
+from crustline.plot.certificate import MARKERS
+from crustline.plot.clip import clipped
+from crustline.plot.picture import SUFFIXES
 
 Floats = NDArray[np.float64]
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
@@ -137,7 +141,7 @@ def test_curves_draw_every_edge_once_in_the_color_of_its_kind() -> None:
 
 
 def test_long_curves_are_drawn_in_pieces_without_a_gap() -> None:
-    n = 2 * plot.CHUNK + 7
+    n = 2 * CHUNK + 7
     points = ring(n)
     curves: Any = SimpleNamespace(
         points=points,
@@ -156,7 +160,7 @@ def test_a_million_edges_are_a_hundred_paths() -> None:
     points = np.random.default_rng(5).random((m, 2))
     edges = np.stack([np.arange(m), np.roll(np.arange(m), 1)], axis=1)
     ax = plot.plot_edges(points, edges)
-    assert len(ax.collections[0].get_paths()) == 2 * m / plot.CHUNK
+    assert len(ax.collections[0].get_paths()) == 2 * m / CHUNK
     assert len(drawn(ax, plot.BLUE)) == m
 
 
@@ -206,7 +210,7 @@ def test_clipping_keeps_exactly_what_is_in_the_box() -> None:
         [[0.0, 0.5], [2.0, 0.5]],
         [[1.0, 0.0], [1.0, 0.25]],
     ]
-    assert plot._clipped(segments, box).tolist() == expected
+    assert clipped(segments, box).tolist() == expected
 
 
 def test_medial_axis_tells_inner_from_outer_and_cuts_its_rays() -> None:
@@ -226,13 +230,13 @@ def test_medial_axis_tells_inner_from_outer_and_cuts_its_rays() -> None:
     assert len(drawn(inner, plot.PURPLE)) == 0
 
 
-@pytest.mark.parametrize("reason", plot.MARKERS)
+@pytest.mark.parametrize("reason", MARKERS)
 def test_certificate_shows_weak_edges_and_reasons(reason: str) -> None:
     ax = plot.plot_certificate(certificate_of_a_square(reason))
     assert as_rows(drawn(ax, plot.BLUE), SQUARE) == {(0, 1), (2, 3)}
     assert as_rows(drawn(ax, plot.VERMILLION), SQUARE) == {(1, 2)}
     mark = next(line for line in ax.lines if line.get_label() == reason)
-    assert mark.get_marker() == plot.MARKERS[reason]
+    assert mark.get_marker() == MARKERS[reason]
     assert mark.get_xydata().tolist() == [[1, 0]]
     assert ax.get_title("left") == "not guaranteed"
 
@@ -255,7 +259,7 @@ def test_indices_are_rows_beside_their_points() -> None:
         plot.plot_indices(np.zeros((5001, 2)))
 
 
-@pytest.mark.parametrize("suffix", plot.SUFFIXES)
+@pytest.mark.parametrize("suffix", SUFFIXES)
 def test_picture_writes_the_same_bytes_again(suffix: str, tmp_path: Path) -> None:
     first, again = tmp_path / f"first{suffix}", tmp_path / f"again{suffix}"
     for path in (first, again):
