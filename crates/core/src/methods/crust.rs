@@ -25,23 +25,37 @@ use std::collections::HashSet;
 /// A cancelled `progress`.
 pub fn crust(delaunay: &Delaunay, progress: &Progress) -> Result<Edges> {
     select(delaunay, progress, Visit::default, |visit, edge| {
-        one_step_crust::is_in(delaunay, edge) && has_empty_disk(delaunay, edge, visit)
+        one_step_crust::is_in(delaunay, edge)
+            && matches!(find_disk(delaunay, edge, visit), Verdict::In(_))
     })
+}
+
+/// How the search for the disk of an edge of the one-step crust ended.
+#[derive(Debug, Clone, Copy)]
+#[expect(dead_code, reason = "tiles will ask what a verdict rests on")]
+pub(crate) enum Verdict {
+    /// The disk inside this circle holds no point and no Voronoi vertex.
+    In(Circle),
+    /// Every disk holds a point or one of these Voronoi vertices; the ends of the edge's dual may be among them.
+    Out([Option<Vertex>; 2]),
 }
 
 /// Look for a disk, the smallest first; each Voronoi vertex found inside rules out a part of the pencil.
 #[inline]
-fn has_empty_disk(delaunay: &Delaunay, edge: Edge, visit: &mut Visit) -> bool {
+pub(crate) fn find_disk(delaunay: &Delaunay, edge: Edge, visit: &mut Visit) -> Verdict {
     let apexes = [edge.left, edge.right].into_iter().flatten();
     if apexes.into_iter().any(|apex| is_above_45(delaunay, edge, apex)) {
         return search(delaunay, edge, None, visit);
     }
     if smallest_disk_is_in_cells(delaunay, edge) {
-        return true;
+        return Verdict::In(Circle::Smallest);
     }
     let pencil = Pencil::new(delaunay.point(edge.p), delaunay.point(edge.q));
     let found = visit.find(delaunay, edge, &pencil, Circle::Smallest);
-    found.is_none() || search(delaunay, edge, found, visit)
+    if found.is_none() {
+        return Verdict::In(Circle::Smallest);
+    }
+    search(delaunay, edge, found, visit)
 }
 
 /// Is the angle opposite to the edge about 45° or more? Then the center of that triangle is inside the smallest disk.
@@ -53,7 +67,12 @@ fn is_above_45(delaunay: &Delaunay, edge: Edge, apex: u32) -> bool {
 }
 
 /// The search in full, from the Voronoi vertex `found` in the smallest disk, if that was tried.
-fn search(delaunay: &Delaunay, edge: Edge, mut found: Option<Vertex>, visit: &mut Visit) -> bool {
+fn search(
+    delaunay: &Delaunay,
+    edge: Edge,
+    mut found: Option<Vertex>,
+    visit: &mut Visit,
+) -> Verdict {
     let pencil = Pencil::new(delaunay.point(edge.p), delaunay.point(edge.q));
     // The angles at the edge's own apexes are acute, so each center is on the side of its triangle.
     let vertex = |corners: [u32; 3]| pencil.vertex(corners.map(|vertex| delaunay.point(vertex)));
@@ -65,12 +84,14 @@ fn search(delaunay: &Delaunay, edge: Edge, mut found: Option<Vertex>, visit: &mu
             Some(Greater) => high = found,
             Some(Less) => low = found,
             // Between p and q, inside all disks.
-            Some(Equal) => return false,
+            Some(Equal) => return Verdict::Out([found, None]),
         }
-        let Some(circle) = pencil.smallest_between(low, high) else { return false };
+        let Some(circle) = pencil.smallest_between(low, high) else {
+            return Verdict::Out([low, high]);
+        };
         found = visit.find(delaunay, edge, &pencil, circle);
         if found.is_none() {
-            return true;
+            return Verdict::In(circle);
         }
     }
 }
@@ -152,7 +173,7 @@ impl Form<2> for RoomBehind {
 
 /// A walk over the Voronoi cells that meet a disk, and its memory.
 #[derive(Default)]
-struct Visit {
+pub(crate) struct Visit {
     cells: Vec<u32>,
     many: HashSet<u32>,
 }
