@@ -10,6 +10,7 @@ The path that data takes::
 from crustline import shapes, theory
 from crustline._core import __version__
 from crustline.certify import Certificate, certify
+from crustline.connect import connect
 from crustline.curves import Curve, Curves, Polygon, reconstruct, trace
 from crustline.delaunay import Delaunay
 from crustline.errors import CrustlineError, FormatError, InputError, MissingExtraError
@@ -58,6 +59,7 @@ __all__ = [
     "alpha_shape",
     "beta_skeleton",
     "certify",
+    "connect",
     "crossing_angle_graph",
     "crust",
     "gabriel",

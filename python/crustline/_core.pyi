@@ -11,6 +11,7 @@ __all__ = [
     "a_shape",
     "alpha_shape",
     "beta_skeleton",
+    "connect",
     "crossing_angle_graph",
     "crust",
     "gabriel",
@@ -44,6 +45,11 @@ class Delaunay:
     def edges(self) -> _Integers: ...
     def duplicates(self) -> _Integers: ...
 
+def connect(
+    delaunay: Delaunay,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
 def crust(
     delaunay: Delaunay,
     threads: int | None = None,

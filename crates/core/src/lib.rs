@@ -8,6 +8,7 @@
 pub mod adjacency;
 pub mod certify;
 pub mod cocircular;
+pub mod connect;
 pub mod delaunay;
 pub mod edges;
 pub mod error;

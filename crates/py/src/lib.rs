@@ -2,6 +2,7 @@
 
 mod arrays;
 mod call;
+mod connect;
 mod delaunay;
 mod edges;
 mod errors;
@@ -15,6 +16,8 @@ use pyo3::prelude::*;
 /// The Python module `crustline._core`.
 #[pymodule]
 mod _core {
+    #[pymodule_export]
+    use crate::connect::connect;
     #[pymodule_export]
     use crate::delaunay::Delaunay;
     #[pymodule_export]

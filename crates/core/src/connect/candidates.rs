@@ -1,0 +1,262 @@
+//! The edges that a curve may take: the Delaunay edges and all diagonals of cocircular groups, as half-edges by vertex.
+
+use super::constants::MOST_PAIRED;
+use crate::cocircular::diagonals;
+use crate::delaunay::{Delaunay, Edge};
+use crate::error::{Error, Result};
+use crate::parts::split;
+use crate::point::{Point, cross, dot, length, sub};
+use crate::progress::Progress;
+use rayon::prelude::*;
+
+/// Vertices that one task takes at a time.
+pub const GRAIN: usize = 1 << 10;
+
+/// The candidate edges, seen from their vertices.
+#[derive(Debug, Default)]
+pub struct Candidates {
+    /// The half-edges from v are numbers `offsets[v]` to `offsets[v + 1]`.
+    offsets: Vec<u32>,
+    /// Where each half-edge leads.
+    pub ends: Vec<u32>,
+    /// The half-edge back.
+    pub twins: Vec<u32>,
+    /// How many of the half-edges from v, the first ones, form pairs.
+    pub paired: Vec<u8>,
+    /// The angles opposite to the edge, summed, in half turns; rounded, so that it does not show which of several
+    /// cocircular points was the apex.
+    pub sights: Vec<f32>,
+}
+
+impl Candidates {
+    /// The candidates among the edges of a triangulation. Linear, but for diagonals of cocircular points.
+    ///
+    /// # Errors
+    /// More half-edges than 32 bits can number, or a cancelled `progress`.
+    pub fn new(delaunay: &Delaunay, progress: &Progress) -> Result<Self> {
+        let tied = tied(delaunay);
+        progress.advance(0)?;
+        let vertices = delaunay.points().len();
+        let offsets = offsets(delaunay, &tied)?;
+        let count = offsets[vertices] as usize;
+        let mut own =
+            Self { offsets, ends: vec![0; count], sights: vec![0.0; count], ..Self::default() };
+        own.fill(delaunay, &tied);
+        progress.advance(0)?;
+        own.link();
+        own.limit_pairs(delaunay);
+        Ok(own)
+    }
+
+    /// The number of vertices.
+    #[must_use]
+    pub fn vertices(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
+    /// The half-edges from `v`.
+    #[inline]
+    #[must_use]
+    pub fn from(&self, v: usize) -> std::ops::Range<usize> {
+        self.offsets[v] as usize..self.offsets[v + 1] as usize
+    }
+
+    /// The neighbors of `v`.
+    #[inline]
+    #[must_use]
+    pub fn neighbors(&self, v: usize) -> &[u32] {
+        &self.ends[self.from(v)]
+    }
+
+    /// The half-edges that form pairs at `v`, the first ones from there.
+    #[inline]
+    #[must_use]
+    pub fn pairs(&self, v: usize) -> usize {
+        self.paired[v] as usize
+    }
+
+    /// Every edge once, as the half-edge from its smaller end, and that end.
+    pub fn edges(&self) -> impl Iterator<Item = (usize, usize)> {
+        (0..self.vertices())
+            .flat_map(|v| self.from(v).map(move |e| (v, e)))
+            .filter(|&(v, e)| v < self.ends[e] as usize)
+    }
+
+    /// The lengths of the parts of a row of values by half-edge that belong to `GRAIN` successive vertices each.
+    pub fn grains(&self) -> impl Iterator<Item = usize> {
+        let vertices = self.vertices();
+        let start = move |v: usize| self.offsets[v.min(vertices)] as usize;
+        (0..vertices).step_by(GRAIN).map(move |v| start(v + GRAIN) - start(v))
+    }
+
+    /// One value for each half-edge: `write` gets a vertex and its part of them.
+    pub fn map<T: Copy + Send>(&self, empty: T, write: impl Fn(usize, &mut [T]) + Sync) -> Vec<T> {
+        let mut values = vec![empty; self.ends.len()];
+        let parts = split(&mut values, self.grains());
+        each(parts, |(k, mut part)| {
+            for v in k * GRAIN..((k + 1) * GRAIN).min(self.vertices()) {
+                let (own, rest) = part.split_at_mut(self.from(v).len());
+                write(v, own);
+                part = rest;
+            }
+        });
+        values
+    }
+
+    fn fill(&mut self, delaunay: &Delaunay, tied: &[(u32, Edge)]) {
+        let lengths: Vec<usize> = self.grains().collect();
+        let ends = split(&mut self.ends, lengths.iter().copied());
+        let sights = split(&mut self.sights, lengths);
+        each(ends.into_iter().zip(sights), |(k, (ends, sights))| {
+            let last = delaunay.points().len();
+            let mut place = 0;
+            let mut star = Vec::new();
+            let mut next = tied.partition_point(|&(v, _)| (v as usize) < k * GRAIN);
+            for v in k * GRAIN..((k + 1) * GRAIN).min(last) {
+                let count =
+                    tied[next..].iter().take_while(|&&(from, _)| from as usize == v).count();
+                collect(delaunay, v as u32, &tied[next..next + count], &mut star);
+                next += count;
+                for &(end, sight) in &star {
+                    (ends[place], sights[place]) = (end, sight);
+                    place += 1;
+                }
+            }
+        });
+    }
+
+    /// Find the twins; what is known of an edge at its smaller end is told to the larger.
+    fn link(&mut self) {
+        self.twins = vec![0; self.ends.len()];
+        let mut next: Vec<u32> = self.offsets.clone();
+        // Ends ascend, so each vertex is met by its neighbors in the order of its own half-edges.
+        for (e, &end) in self.ends.iter().enumerate() {
+            let twin = next[end as usize];
+            next[end as usize] += 1;
+            self.twins[e] = twin;
+            if (twin as usize) < e {
+                self.sights[e] = self.sights[twin as usize];
+            }
+        }
+    }
+
+    /// Let only the shortest half-edges of hubs form pairs, and put them first.
+    ///
+    /// Those as long as the first one too many are out as well, so that the order of ties does not matter.
+    fn limit_pairs(&mut self, delaunay: &Delaunay) {
+        self.paired = vec![0; self.vertices()];
+        for v in 0..self.vertices() {
+            let range = self.from(v);
+            if range.len() <= MOST_PAIRED {
+                self.paired[v] = range.len() as u8;
+                continue;
+            }
+            let from = delaunay.point(v as u32);
+            let length_of = |&end: &u32| length(sub(delaunay.point(end), from));
+            let mut sorted: Vec<f64> = self.ends[range.clone()].iter().map(length_of).collect();
+            let (_, &mut limit, _) = sorted.select_nth_unstable_by(MOST_PAIRED, f64::total_cmp);
+            let mut place = range.start;
+            for e in range.clone() {
+                if length_of(&self.ends[e]) < limit {
+                    self.swap(e, place);
+                    place += 1;
+                }
+            }
+            self.paired[v] = (place - range.start) as u8;
+        }
+    }
+
+    /// Exchange two half-edges of one vertex.
+    fn swap(&mut self, a: usize, b: usize) {
+        self.ends.swap(a, b);
+        self.sights.swap(a, b);
+        self.twins.swap(a, b);
+        for e in [a, b] {
+            let twin = self.twins[e] as usize;
+            self.twins[twin] = e as u32;
+        }
+    }
+}
+
+/// Do `work` on numbered parts, in parallel if there are several: small calls need not wake other threads.
+pub fn each<T: Send>(parts: impl IntoIterator<Item = T>, work: impl Fn((usize, T)) + Sync + Send) {
+    let mut parts: Vec<(usize, T)> = parts.into_iter().enumerate().collect();
+    match parts.len() {
+        0 => (),
+        1 => work(parts.swap_remove(0)),
+        _ => parts.into_par_iter().for_each(work),
+    }
+}
+
+/// One value for each of `count` vertices.
+pub fn by_vertex<T: Copy + Default + Send>(
+    count: usize,
+    value: impl Fn(usize) -> T + Sync,
+) -> Vec<T> {
+    let mut values = vec![T::default(); count];
+    each(values.chunks_mut(GRAIN), |(k, part)| {
+        for (i, own) in part.iter_mut().enumerate() {
+            *own = value(k * GRAIN + i);
+        }
+    });
+    values
+}
+
+/// The diagonals of cocircular points that are not in the triangulation, from both of their ends, sorted.
+fn tied(delaunay: &Delaunay) -> Vec<(u32, Edge)> {
+    let is_new = |edge: &Edge| !delaunay.star(edge.p).neighbors.contains(&edge.q);
+    let both = |edge: Edge| [(edge.p, edge), (edge.q, edge)];
+    let mut tied: Vec<_> = diagonals(delaunay).into_iter().filter(is_new).flat_map(both).collect();
+    tied.par_sort_unstable_by_key(|&(v, edge)| (v, edge.p, edge.q));
+    tied
+}
+
+fn offsets(delaunay: &Delaunay, tied: &[(u32, Edge)]) -> Result<Vec<u32>> {
+    let vertices = delaunay.points().len();
+    let limit = u32::MAX as usize;
+    if delaunay.stars().half_edges() + tied.len() > limit {
+        return Err(Error::TooManyPoints { count: vertices, limit: limit / 8 });
+    }
+    let mut offsets = vec![0; vertices + 1];
+    for v in 0..vertices {
+        offsets[v + 1] = delaunay.star(v as u32).neighbors.len() as u32;
+    }
+    for &(v, _) in tied {
+        offsets[v as usize + 1] += 1;
+    }
+    for v in 0..vertices {
+        offsets[v + 1] += offsets[v];
+    }
+    Ok(offsets)
+}
+
+/// Put the candidates from `v` into `star`, by ascending end; sights only at the smaller end.
+fn collect(delaunay: &Delaunay, v: u32, tied: &[(u32, Edge)], star: &mut Vec<(u32, f32)>) {
+    star.clear();
+    let own = delaunay.star(v);
+    for (k, &end) in own.neighbors.iter().enumerate() {
+        let apexes = [own.left(k), own.right(k)];
+        star.push((end, if v < end { sight(delaunay, v, end, apexes) } else { 0.0 }));
+    }
+    // The opposite angles of a diagonal of cocircular points sum to half a turn.
+    star.extend(tied.iter().map(|&(_, edge)| (edge.p ^ edge.q ^ v, 1.0)));
+    star.sort_unstable_by_key(|&(end, _)| end);
+}
+
+/// The angles at `apexes` opposite to the edge p q, summed, in half turns.
+fn sight(delaunay: &Delaunay, p: u32, q: u32, apexes: [Option<u32>; 2]) -> f32 {
+    let [p, q] = [p, q].map(|v| delaunay.point(v));
+    let angles = apexes.map(|apex| {
+        apex.map_or(0.0, |apex| {
+            let at = delaunay.point(apex);
+            angle(sub(p, at), sub(q, at))
+        })
+    });
+    ((angles[0] + angles[1]) / std::f64::consts::PI) as f32
+}
+
+/// The angle between two vectors, from 0 to π; the same after turns by 90° and reflections, to the last bit.
+#[must_use]
+pub fn angle(u: Point, v: Point) -> f64 {
+    libm::atan2(cross(u, v).abs(), dot(u, v))
+}

@@ -1,0 +1,89 @@
+//! Every constant of the costs, with its reason. A free end costs 1: that is the unit.
+//!
+//! They were fitted on one half of the generated cases of `benchmarks/accuracy`, never on the other. Changes of a quarter
+//! in any of them move few answers.
+
+/// The constants.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Constants {
+    /// What a curve pays at a point where it turns back: nearly an end, so that a corner is better than a gap.
+    pub turn: f64,
+    /// What a change of step by a factor of e costs at a point.
+    pub step: f64,
+    /// What an isolated point costs: above an end, so that lone points do not pair up.
+    pub alone: f64,
+    /// By how much that falls when the point is e times as far from others as its surroundings are: a likely outlier.
+    pub alone_slope: f64,
+    /// It never falls below this part of itself: leaving a point out is never free.
+    pub alone_least: f64,
+    /// Nor rises above this multiple.
+    pub alone_most: f64,
+    /// How much of it is taken off where all points that lie as far from others as this one were isolated.
+    pub alone_share: f64,
+    /// Points count as lying as far out as another from this part of its relative distance.
+    pub alone_alike: f64,
+    /// What an edge pays for each 180° of its two opposite angles together.
+    pub sight: f64,
+    /// As many half turns of them are free; on a straight and even curve they are near 0.
+    pub sight_free: f64,
+    /// What an edge e times as long as the nearest neighbors of its ends pays.
+    pub near: f64,
+    /// What an edge e times as long as the spacing around it pays beside.
+    pub long: f64,
+    /// Neighbors nearer than this part of the spacing around do not set the scale.
+    pub close: f64,
+    /// Where the curve found first turns by this part of a half turn at most points, turning weighs half: about 25°.
+    pub rough_turn: f64,
+    /// How fast that weight falls.
+    pub rough_turn_power: f64,
+    /// Where steps change by this logarithm at most points, lengths weigh half: twofold.
+    pub rough_step: f64,
+    /// How fast that weight falls.
+    pub rough_step_power: f64,
+}
+
+/// The constants in use.
+pub const CONSTANTS: Constants = Constants {
+    turn: 0.9,
+    step: 0.12,
+    alone: 1.2,
+    alone_slope: 0.12,
+    alone_least: 0.1,
+    alone_most: 3.0,
+    alone_share: 0.5,
+    alone_alike: 0.8,
+    sight: 0.75,
+    sight_free: 0.1,
+    near: 0.3,
+    long: 0.2,
+    close: 0.25,
+    rough_turn: 0.14,
+    rough_turn_power: 2.0,
+    rough_step: 0.7,
+    rough_step_power: 6.0,
+};
+
+/// At a vertex of more edges than this pairs are made among the shortest only, so that hubs stay cheap.
+pub const MOST_PAIRED: usize = 14;
+/// Rings of neighbors whose medians smooth the local spacing: enough to vote down small clusters of outliers.
+pub const SPACING_RINGS: usize = 4;
+/// Rings whose medians smooth what the first round found.
+pub const ROUGHNESS_RINGS: usize = 3;
+/// The most sweeps of messages a round: a message goes as many edges far.
+pub const SWEEPS: usize = 20;
+/// Messages that change by no more than this have converged; an end costs 1.
+pub const CONVERGED: f32 = 1e-3;
+/// Components of fewer points than this are dropped where points are isolated: outliers pair up.
+pub const FEWEST: usize = 4;
+/// How many isolated points it takes to prune at all.
+pub const PRUNE_FROM: usize = 3;
+/// Components of fewer points than this may be outliers in a row.
+pub const SMALL: usize = 16;
+/// They are if their steps are at least this part of the outliers' distances …
+pub const PRUNE_STEP: f64 = 0.5;
+/// … and cost at least this part of an isolated point each.
+pub const PRUNE_COST: f64 = 0.3;
+/// The sampling ratio at which the crust is proven (paper, §8).
+pub const PROVEN: f64 = 0.252;
+/// By how much the estimate of that ratio may be too small.
+pub const MARGIN: f64 = 0.15;

@@ -1,0 +1,75 @@
+//! The costs of a set of edges: of each edge, of each point that it passes, ends at, or leaves out.
+
+use super::candidates::{Candidates, by_vertex};
+use super::constants::Constants;
+use super::geometry::Geometry;
+use super::roughness::Roughness;
+
+/// The costs; a free end costs 1 unless told otherwise.
+#[derive(Debug)]
+pub struct Costs {
+    /// Of each half-edge's edge.
+    pub edges: Vec<f32>,
+    /// Of a turn at each vertex: times the square root of the turn in half turns.
+    pub turns: Vec<f32>,
+    /// Of a change of step at each vertex: times the difference of the logarithms.
+    pub steps: Vec<f32>,
+    /// Of an end at each vertex.
+    pub ends: Vec<f32>,
+    /// Of each vertex alone.
+    pub alone: Vec<f32>,
+}
+
+impl Costs {
+    /// The costs, given how rough the curve is around each vertex.
+    #[must_use]
+    pub fn new(
+        candidates: &Candidates,
+        geometry: &Geometry,
+        rough: &Roughness,
+        constants: &Constants,
+    ) -> Self {
+        let vertices = candidates.vertices();
+        let turns =
+            by_vertex(vertices, |v| (constants.turn * rough.turn_weight(v, constants)) as f32);
+        let weights = by_vertex(vertices, |v| rough.step_weight(v, constants) as f32);
+        let edges = candidates.map(0.0, |v, own| {
+            for (own, e) in own.iter_mut().zip(candidates.from(v)) {
+                let end = candidates.ends[e] as usize;
+                let length = length_cost(candidates, geometry, constants, [v, end], e);
+                *own = sight_cost(candidates.sights[e], constants)
+                    + (weights[v] * weights[end]).sqrt() * length;
+            }
+        });
+        let alone = by_vertex(vertices, |v| {
+            (alone(geometry.crowding[v], constants) * rough.alone_weight(v, constants)) as f32
+        });
+        let steps = weights.into_iter().map(|w| constants.step as f32 * w).collect();
+        Self { edges, turns, steps, ends: vec![1.0; vertices], alone }
+    }
+}
+
+fn sight_cost(sight: f32, constants: &Constants) -> f32 {
+    constants.sight as f32 * (sight - constants.sight_free as f32).max(0.0)
+}
+
+/// The cost of the length of the edge of half-edge `e` between two vertices.
+fn length_cost(
+    candidates: &Candidates,
+    geometry: &Geometry,
+    constants: &Constants,
+    ends: [usize; 2],
+    e: usize,
+) -> f32 {
+    let close = -libm::log(constants.close) as f32;
+    let lengths = [e, candidates.twins[e] as usize].map(|e| geometry.lengths[e]);
+    let [a, b] = ends.map(|v| geometry.crowding[v]);
+    let near = (lengths[0] - (a - close).max(0.0)) + (lengths[1] - (b - close).max(0.0));
+    let long = (lengths[0] - a) + (lengths[1] - b);
+    f32::midpoint(constants.near as f32 * near, constants.long as f32 * long.max(0.0))
+}
+
+fn alone(crowding: f32, constants: &Constants) -> f64 {
+    let cost = constants.alone + constants.alone_slope * f64::from(crowding);
+    cost.clamp(constants.alone_least * constants.alone, constants.alone_most * constants.alone)
+}

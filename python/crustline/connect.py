@@ -1,0 +1,74 @@
+"""Connecting imperfect points: corners, open ends, gaps, outliers and noise."""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+
+from crustline import _core
+from crustline.delaunay import Delaunay, Progress, check_threads
+from crustline.methods import Edges, triangulation
+
+
+def connect(
+    points: ArrayLike | Delaunay,
+    *,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Edges:
+    """Return the edges of the curves that points suggest, at most two a point.
+
+    Of all sets of Delaunay edges with at most two a point this is one that costs little: an edge
+    costs by its length relative to the spacing around it and by the angles opposite to it, a point
+    by its turn and its change of step, and a free end as much as a few bad edges. Message passing
+    [1]_ looks for the least; a second round weighs turns and lengths by how much they vary nearby,
+    and leaves out outliers.
+
+    Parameters
+    ----------
+    points : array_like of float, shape (n, 2), or Delaunay
+        Coordinates, in any one unit. Finite. Repeated points count once, at their first row.
+    threads : int, optional
+        How many threads to use; by default `RAYON_NUM_THREADS`, or one a core. The edges are the
+        same for any number.
+    progress : callable, optional
+        Called now and then with the name of a stage and the fraction of it that is done.
+
+    Returns
+    -------
+    edges : ndarray of int64, shape (m, 2)
+        Rows of `points`, i < j in each row, rows sorted. No point has more than two.
+
+    Raises
+    ------
+    InputError
+        If `points` is not (n, 2), or a coordinate is not finite (the message names the row).
+
+    See Also
+    --------
+    crust : proven for dense samples of smooth closed curves, and sure of nothing else.
+
+    Notes
+    -----
+    No theorem says that this is right, but where one says that the crust is, this gives the same:
+    a ring of the crust with (1 + 0.15) · r < 0.252 at every edge, r being its sampling ratio as
+    `certify` estimates it, is taken as it is.
+
+    The costs are floating-point estimates, and the same for any order of the rows and number of
+    threads, after scaling by a power of two, turns by 90°, reflections, and translations that keep
+    the coordinates exact. Where edges are equally good and not all can be in, none is: nothing in
+    the points tells them apart. O(n log n) time.
+
+    References
+    ----------
+    .. [1] J. Pearl, "Probabilistic Reasoning in Intelligent Systems", Morgan Kaufmann (1988).
+
+    Examples
+    --------
+    A corner, which the crust cuts with two chords:
+
+    >>> corner = [(-1.5, 3), (-1, 2), (-0.5, 1), (0, 0), (0.5, 1), (1, 2), (1.5, 3)]
+    >>> connect(corner).tolist()
+    [[0, 1], [1, 2], [2, 3], [3, 4], [4, 5], [5, 6]]
+    """
+    delaunay = triangulation(points, threads, progress)
+    return _core.connect(delaunay._core, check_threads(threads), progress)
