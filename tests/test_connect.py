@@ -146,7 +146,7 @@ def test_threads_do_not_matter() -> None:
     angle = rng.random(30_000) * 2 * math.pi
     curve = np.stack([np.cos(angle), np.sin(3 * angle)], axis=1)
     points = np.concatenate([curve, rng.uniform(-1, 1, (5000, 2))])
-    one, three = (cl.connect(points, threads=threads) for threads in (1, 3))
+    one, three = (cl.connect(cl.Delaunay(points, threads=threads)) for threads in (1, 3))
     assert np.array_equal(one, three)
 
 

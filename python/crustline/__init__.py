@@ -15,7 +15,8 @@ from crustline.curves import Curve, Curves, Polygon, reconstruct, trace
 from crustline.delaunay import Delaunay
 from crustline.errors import CrustlineError, FormatError, InputError, MissingExtraError
 from crustline.formats import read, write
-from crustline.medial import MedialAxis, local_feature_size, medial_axis
+from crustline.interpolant import Interpolant, local_feature_size
+from crustline.medial_axis import MedialAxis, medial_axis
 from crustline.methods import (
     METHODS,
     a_shape,
@@ -47,6 +48,7 @@ __all__ = [
     "Delaunay",
     "FormatError",
     "InputError",
+    "Interpolant",
     "MedialAxis",
     "MissingExtraError",
     "Points",

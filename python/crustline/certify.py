@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from crustline.arrays import BoolArray, FloatArray, IntArray, as_edges
+from crustline.arrays import BoolArray, FloatArray, IntArray, read_only
 from crustline.delaunay import Delaunay, as_delaunay
-from crustline.medial import interpolant
-from crustline.methods import crust
+from crustline.interpolant import interpolant
+from crustline.methods import as_selected, crust
+from crustline.notebook import paragraphs
 from crustline.points import Points
+from crustline.records import Record
 from crustline.theory import guaranteed_r, sample_angle
 
 if TYPE_CHECKING:
@@ -38,7 +40,7 @@ Reasons = npt.NDArray[np.str_]
 
 
 @dataclass(frozen=True, eq=False)
-class Certificate:
+class Certificate(Record):
     """What is guaranteed about edges, by which theorem, and what breaks the guarantee.
 
     Attributes
@@ -87,12 +89,12 @@ class Certificate:
     @cached_property
     def edge_reason(self) -> Reasons:
         """Why each edge breaks the guarantee."""
-        return REASONS[self.edge_codes]
+        return read_only(REASONS[self.edge_codes])
 
     @cached_property
     def point_reason(self) -> Reasons:
         """Why each point breaks the guarantee."""
-        return REASONS[self.point_codes]
+        return read_only(REASONS[self.point_codes])
 
     @property
     def weak(self) -> IntArray:
@@ -120,7 +122,7 @@ class Certificate:
         count = f"{len(self.edges)} edges between {len(self.points)} points"
         if not self.theorem:
             return f"{count}, which are not what a method with a theorem selects from the points."
-        return f"{count}, to which {self.theorem} applies."
+        return f"{count}, the case of {self.theorem}."
 
     def _estimate(self) -> str:
         worst = int(np.argmax(self.ratio))
@@ -171,6 +173,10 @@ class Certificate:
 
         return plot_certificate(self, ax, **options)
 
+    def _repr_html_(self) -> str:
+        """Return the summary, as notebooks show it."""
+        return paragraphs(self.summary().splitlines())
+
     def __repr__(self) -> str:
         word = "guaranteed" if self.guaranteed else f"not guaranteed, {len(self.weak)} weak edges"
         return f"<Certificate: {word}; sampling ratio about {self.sampling_ratio:.3g}>"
@@ -214,7 +220,7 @@ def certify(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = None
     this one.
 
     *Estimated*: that they are an r-sample of the curve that these edges suggest, their smooth
-    interpolant (see `crustline.medial.local_feature_size`). The estimate must be below the
+    interpolant (see `local_feature_size`). The estimate must be below the
     threshold with a margin of 15 % to spare.
 
     *Not known*: the curve that the points were taken from. Samples that are too sparse for it may
@@ -246,11 +252,10 @@ def certify(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = None
     <Certificate: not guaranteed, 6 weak edges; sampling ratio about 0.518>
     """
     delaunay = as_delaunay(points)
-    chosen = crust(delaunay) if edges is None else as_edges(edges, len(delaunay))
+    chosen = as_selected(delaunay, edges)
     smooth = interpolant(delaunay, chosen)
-    ratio, turn, degree = smooth.measures(*delaunay._how)
-    is_beta_skeleton = smooth.is_beta_skeleton(BETA, *delaunay._how)
-    theorem, threshold, differing = _theorem(delaunay, chosen, is_beta_skeleton)
+    ratio, turn, degree = smooth.measures
+    theorem, threshold, differing = _theorem(delaunay, chosen, smooth.is_beta_skeleton(BETA))
     asked = threshold or guaranteed_r("beta_skeleton", BETA)
     corner = turn > math.pi - float(sample_angle(asked))
     of_points = _reasons_of_points(degree, corner, _without(differing, chosen, len(delaunay)))

@@ -5,16 +5,11 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from crustline import _core
-from crustline.delaunay import Delaunay, Progress, check_threads
-from crustline.methods import Edges, triangulation
+from crustline.delaunay import Delaunay, as_delaunay
+from crustline.methods import Edges
 
 
-def connect(
-    points: ArrayLike | Delaunay,
-    *,
-    threads: int | None = None,
-    progress: Progress | None = None,
-) -> Edges:
+def connect(points: ArrayLike | Delaunay) -> Edges:
     """Return the edges of the curves that points suggest, at most two a point.
 
     Of all sets of Delaunay edges with at most two a point this is one that costs little: an edge
@@ -27,11 +22,6 @@ def connect(
     ----------
     points : array_like of float, shape (n, 2), or Delaunay
         Coordinates, in any one unit. Finite. Repeated points count once, at their first row.
-    threads : int, optional
-        How many threads to use; by default `RAYON_NUM_THREADS`, or one a core. The edges are the
-        same for any number.
-    progress : callable, optional
-        Called now and then with the name of a stage and the fraction of it that is done.
 
     Returns
     -------
@@ -70,5 +60,4 @@ def connect(
     >>> connect(corner).tolist()
     [[0, 1], [1, 2], [2, 3], [3, 4], [4, 5], [5, 6]]
     """
-    delaunay = triangulation(points, threads, progress)
-    return _core.connect(delaunay._core, check_threads(threads), progress)
+    return as_delaunay(points).run(_core.connect)

@@ -17,13 +17,14 @@ from crustline.arrays import BoolArray, FloatArray, IntArray, as_edges, read_onl
 from crustline.delaunay import Delaunay, as_delaunay, points_and_how
 from crustline.methods import crust
 from crustline.points import Points
+from crustline.records import Record
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
 @dataclass(frozen=True, eq=False)
-class Curve:
+class Curve(Record):
     """One ring or polyline, as rows of the points.
 
     Attributes
@@ -56,7 +57,7 @@ class Curve:
 
 
 @dataclass(frozen=True, eq=False)
-class Polygon:
+class Polygon(Record):
     """A ring and the rings that are holes in it.
 
     Attributes
@@ -75,7 +76,7 @@ class Polygon:
 
 
 @dataclass(frozen=True, eq=False)
-class Curves(Sequence[Curve]):
+class Curves(Record, Sequence[Curve]):
     """Rings and polylines as ragged rows of points; a sequence of `Curve`.
 
     Rings start at their smallest index and run counter-clockwise, polylines start at their end of

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from crustline import _core
 from crustline.arrays import read_only
+from crustline.notebook import table
 from crustline.points import Points
 from crustline.scalars import as_whole
 
@@ -118,6 +119,11 @@ class Delaunay:
 
     def __repr__(self) -> str:
         return f"<Delaunay: {len(self):,} point{'s' * (len(self) != 1)}>"
+
+    def _repr_html_(self) -> str:
+        """Return the table that notebooks show."""
+        parts = ("points", "triangles", "edges", "hull", "duplicates")
+        return table("Delaunay", parts, [[len(getattr(self, part)) for part in parts]])
 
     def __eq__(self, other: object) -> bool:
         """Whether the points are equal, with all that they carry: they decide the triangulation."""

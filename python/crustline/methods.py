@@ -16,12 +16,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from crustline import _core
-from crustline.arrays import as_points
+from crustline.arrays import as_edges, as_points
 from crustline.delaunay import Delaunay, as_delaunay, points_and_how
 from crustline.errors import InputError
 
 Edges = NDArray[np.int64]
 Method = Callable[..., Edges]
+
+
+def as_selected(delaunay: Delaunay, edges: ArrayLike | None) -> Edges:
+    """Return edges of the points, i < j, sorted and unique; the crust if none are given."""
+    return crust(delaunay) if edges is None else as_edges(edges, len(delaunay))
 
 
 def check_number(name: str, value: object) -> float:
@@ -92,7 +97,8 @@ def crust(
     >>> crust([(0, 0), (1, 0), (1, 1), (0, 1)]).tolist()
     [[0, 1], [0, 3], [1, 2], [2, 3]]
     """
-    return as_delaunay(points).run(_core.crust)
+    delaunay = as_delaunay(points)
+    return delaunay.cached("crust", lambda: delaunay.run(_core.crust))
 
 
 def beta_skeleton(

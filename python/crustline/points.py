@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from crustline.arrays import FloatArray, as_points, equal, read_only
 from crustline.errors import InputError
+from crustline.notebook import table
 
 Column = npt.NDArray[Any]
 
@@ -196,6 +197,14 @@ class Points:
         from crustline.formats import write_points
 
         write_points(self, path, format=format)
+
+    def _repr_html_(self) -> str:
+        """Return the table that notebooks show: the first and the last rows."""
+        shown = [*range(min(len(self), 5)), *range(max(5, len(self) - 5), len(self))]
+        beside = {"z": self.z} if self.z is not None else {}
+        beside |= self.columns
+        rows = [(row, *self.xy[row], *(each[row] for each in beside.values())) for row in shown]
+        return table(repr(self).strip("<>"), ["row", *self.names, *beside], rows)
 
     def __repr__(self) -> str:
         carried = ["z"] * (self.z is not None) + list(self.columns)

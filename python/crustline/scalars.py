@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from numbers import Integral, Real
 
 import numpy as np
@@ -13,6 +13,7 @@ from crustline.errors import InputError
 __all__ = [
     "LARGEST",
     "SMALLEST",
+    "as_choice",
     "as_positive",
     "as_real",
     "as_rtol",
@@ -69,6 +70,13 @@ def as_whole(name: str, value: object, low: int, high: int | None = None) -> int
             return int(number)
     span = f"of at least {low}" if high is None else f"from {low} to {high}"
     raise _refusal(name, f"a whole number {span}", value)
+
+
+def as_choice(name: str, value: object, choices: Sequence[str]) -> str:
+    """Return a word that is one of the choices."""
+    if isinstance(value, str) and value in choices:
+        return value
+    raise InputError(f"{name} must be {' or '.join(map(repr, choices))}, not {value!r:.60}")
 
 
 def _as_float(value: object) -> float:

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from crustline.arrays import FloatArray, IntArray, as_edges, as_points
 from crustline.curves import trace
-from crustline.medial import local_feature_size
+from crustline.interpolant import local_feature_size
 from crustline.scalars import as_share
 
 # Beyond this many edges a step, thinning strides instead of looking at every sample as a start.

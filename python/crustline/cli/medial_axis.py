@@ -16,7 +16,7 @@ from crustline.cli.source import Source, source_options
 from crustline.errors import InputError
 
 if TYPE_CHECKING:
-    from crustline.medial import MedialAxis
+    from crustline.medial_axis import MedialAxis
 
 
 @click.command("medial-axis")
@@ -57,7 +57,7 @@ def medial_axis(
         raise InputError(f"--prune is {at_least}: give a length of at least 0")
     points, _, edges = select_edges(source, method, output.quiet)
 
-    from crustline.medial import medial_axis
+    from crustline.medial_axis import medial_axis
 
     axis = _part(medial_axis(points, edges).prune(at_least), part)
     output.write(partial(axis.write, box=corners))

@@ -18,7 +18,7 @@ from crustline.plot.clip import box_around, clipped, long_rays
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from crustline.medial import MedialAxis
+    from crustline.medial_axis import MedialAxis
 
 
 def plot_medial_axis(

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from crustline.certify import Certificate
     from crustline.curves import Curves
     from crustline.delaunay import Delaunay
-    from crustline.medial import MedialAxis
+    from crustline.medial_axis import MedialAxis
 
 
 @dataclass(frozen=True)
@@ -59,13 +59,13 @@ class _Scene:
 
     @cached_property
     def medial_axis(self) -> MedialAxis:
-        from crustline.medial import medial_axis
+        from crustline.medial_axis import medial_axis
 
         return medial_axis(self.points, self.edges)
 
     @cached_property
     def feature_sizes(self) -> FloatArray:
-        from crustline.medial import local_feature_size
+        from crustline.interpolant import local_feature_size
 
         return np.asarray(local_feature_size(self.points, self.edges))
 

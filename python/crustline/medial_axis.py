@@ -1,4 +1,4 @@
-"""The medial axis of samples (paper, §11: the anti-crust), and the local feature size from them.
+"""The medial axis of samples (paper, §11: the anti-crust).
 
 For a known smooth curve see `SmoothCurve.local_feature_size` in `crustline.shapes`.
 """
@@ -14,17 +14,19 @@ import numpy as np
 import numpy.typing as npt
 
 from crustline import _core
-from crustline.arrays import BoolArray, FloatArray, IntArray, as_edges
+from crustline.arrays import BoolArray, FloatArray, IntArray
 from crustline.curves import Curves, trace
 from crustline.delaunay import Delaunay, as_delaunay
 from crustline.errors import InputError
-from crustline.methods import crust
+from crustline.methods import as_selected
 from crustline.points import Points
+from crustline.records import Record
+from crustline.scalars import as_choice, as_real
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["MedialAxis", "local_feature_size", "medial_axis"]
+__all__ = ["MedialAxis", "medial_axis"]
 
 #: How far `write` follows the axis beyond the points' bounding box, as a part of its longer side.
 MARGIN = 0.25
@@ -33,7 +35,7 @@ Residual = Literal["arc", "chord"]
 
 
 @dataclass(frozen=True, eq=False)
-class MedialAxis:
+class MedialAxis(Record):
     """The medial axis of samples: Voronoi edges whose dual Delaunay edge is not selected.
 
     Attributes
@@ -141,8 +143,7 @@ class MedialAxis:
         .. [1] R. L. Ogniewicz, O. Kübler, "Hierarchic Voronoi Skeletons", Pattern Recognition 28
            (1995), 343-359.
         """
-        if kind not in ("arc", "chord"):
-            raise InputError(f"kind must be 'arc' or 'chord', not {kind!r}")
+        as_choice("kind", kind, ("arc", "chord"))
         return self._residual(self.samples, kind), self._residual(self.ray_samples, kind)
 
     def _residual(self, samples: IntArray, kind: Residual) -> FloatArray:
@@ -201,8 +202,7 @@ class MedialAxis:
         >>> axis.prune() is not axis, len(axis.prune().edges), len(axis.prune(100.0).edges)
         (True, 0, 0)
         """
-        if not at_least >= 0:
-            raise InputError(f"at_least must be a length of at least 0, not {at_least}")
+        as_real("at_least", at_least, "a length of at least 0", lambda x: x >= 0)
         of_edges, of_rays = self.residuals(kind)
         kept, rays = of_edges >= at_least, of_rays >= at_least
         used = np.zeros(len(self.vertices), bool)
@@ -271,6 +271,10 @@ class MedialAxis:
 
         return plot_medial_axis(self, ax, **options)
 
+    def _repr_svg_(self) -> str:
+        """Return the picture that notebooks show: the axis in its box."""
+        return self.curves()._repr_svg_()
+
     def __repr__(self) -> str:
         inner = int(np.count_nonzero(self.inner))
         return (
@@ -331,75 +335,9 @@ def medial_axis(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = 
     [[[0.5, 0.5], [1.5, 0.5]], [[1.5, 0.5], [2.5, 0.5]]]
     """
     delaunay = as_delaunay(points)
-    selected = crust(delaunay) if edges is None else as_edges(edges, len(delaunay))
+    selected = as_selected(delaunay, edges)
     fields = delaunay.run(_core.medial_axis, selected)
     return MedialAxis(**fields, points=delaunay.points, selected=selected)
-
-
-def local_feature_size(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike) -> FloatArray:
-    """Return an estimate of the local feature size at samples of an unknown curve.
-
-    Parameters
-    ----------
-    points : array_like of float, shape (n, 2), Points or Delaunay
-        Coordinates, in any one unit. Finite.
-    edges : array_like of int, shape (m, 2)
-        The curves' edges, as rows of the points.
-
-    Returns
-    -------
-    sizes : ndarray of float64, shape (n,)
-        In the unit of the points. NaN at isolated points, which are on no curve; 0 at branches,
-        where no curve is smooth; infinite if there is no axis, as along a straight line. A repeated
-        point has the size of the first of its kind.
-
-    Raises
-    ------
-    InputError
-        If the points or edges do not fit; the message names the first row at fault.
-
-    Notes
-    -----
-    The distance to the medial axis of a smooth interpolant: at each sample the tangent and the
-    curvature, a quadratic in arc length through five samples, limited so that it does not overshoot
-    where the curvature jumps; on each side the largest empty disk that touches there; the centers
-    of these disks, linked along the curve; and the centers of curvature at the extrema of the
-    curvature, where the axis ends. The distance is searched over the whole axis, and not the axis
-    next to the sample only.
-
-    An estimate, measured on ellipses up to 6:1, Fourier blobs and stadiums, sparsest and random
-    samples. At r = 0.2 the median error of the worst curve is 0.1 % (ellipses), 0.8 % (blobs), 8 %
-    (stadiums); 95 % of the errors are within 0.9, 6.4 and 13 %; the extremes are +36 % (a blob,
-    where the curvature peaks between samples) and -17 % (a stadium). At r = 0.1 the extremes are +6
-    % and -13 %, at r = 0.4 +70 % and -14 %. Where the curvature is continuous the error falls at
-    least with the square of r; where it jumps, as on a stadium, up to 13 % too little remain at any
-    r. For speed the axis is made of fewer, longer segments, less than 0.05 % off the distance, and
-    the search stops within as much of the nearest.
-
-    O(n log n) time: a million samples take about 1.3 times as long as their crust.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> angle = np.linspace(0, 2 * np.pi, 24, endpoint=False)
-    >>> circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-    >>> local_feature_size(circle, [(i, (i + 1) % 24) for i in range(24)]).round(6)[:3]
-    array([1., 1., 1.])
-    """
-    delaunay = as_delaunay(points)
-    return interpolant(delaunay, as_edges(edges, len(delaunay))).sizes()
-
-
-def interpolant(delaunay: Delaunay, edges: IntArray) -> _core.Interpolant:
-    """Return the smooth interpolant of edges and its axis, kept for the triangulation's next call.
-
-    The local feature size and the certificate rest on the same, and it is most of their work.
-    """
-    return delaunay.cached(
-        "interpolant",
-        lambda: delaunay.run(_core.Interpolant, edges),
-        fits=lambda known: known.is_of(edges),
-    )
 
 
 def _as_box(box: npt.ArrayLike) -> FloatArray:

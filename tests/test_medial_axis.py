@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 import generators
 from crustline import Delaunay, InputError, crust
-from crustline.medial import MedialAxis, local_feature_size, medial_axis
+from crustline.interpolant import local_feature_size
+from crustline.medial_axis import MedialAxis, medial_axis
 from crustline.shapes import SmoothCurve, blob, circle, ellipse, stadium
 from crustline.shapes.sampling import r_sample
 

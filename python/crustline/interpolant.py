@@ -1,0 +1,123 @@
+"""The smooth interpolant of samples, and the local feature size that is measured on it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy.typing as npt
+
+from crustline import _core
+from crustline.arrays import FloatArray, IntArray, read_only
+from crustline.delaunay import Delaunay, How, as_delaunay
+from crustline.methods import as_selected
+
+__all__ = ["Interpolant", "interpolant", "local_feature_size"]
+
+
+@dataclass(frozen=True, eq=False)
+class Interpolant:
+    """The smooth curve through samples that their edges suggest, and its medial axis.
+
+    `local_feature_size` and `certify` rest on it. The triangulation keeps the latest one.
+
+    Attributes
+    ----------
+    edges : ndarray of int64, shape (m, 2)
+        The edges that it follows: i < j in each row, rows sorted.
+    """
+
+    edges: IntArray
+    _core: _core.Interpolant = field(repr=False)
+    _how: How = field(repr=False)
+
+    @cached_property
+    def local_feature_size(self) -> FloatArray:
+        """The distance of each sample (n,) to the axis: see `crustline.local_feature_size`."""
+        return read_only(self._core.sizes())
+
+    @cached_property
+    def measures(self) -> tuple[FloatArray, FloatArray, IntArray]:
+        """The sampling ratio of each edge (m,), the turn (radians) and degree of each sample (n,).
+
+        The turn is the angle by which the two edges of a sample differ in direction; 0 where they
+        go straight on, or where there are not two.
+        """
+        return self._core.measures(*self._how)
+
+    def is_beta_skeleton(self, beta: float) -> bool:
+        """Whether the edges are the circle-based β-skeleton of the samples, exactly."""
+        return self._core.is_beta_skeleton(beta, *self._how)
+
+
+def interpolant(delaunay: Delaunay, edges: IntArray) -> Interpolant:
+    """Return the interpolant of edges; the triangulation keeps it for the next call."""
+
+    def make() -> Interpolant:
+        return Interpolant(edges, delaunay.run(_core.Interpolant, edges), delaunay._how)
+
+    return delaunay.cached("interpolant", make, fits=lambda known: known._core.is_of(edges))
+
+
+def local_feature_size(
+    points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = None
+) -> FloatArray:
+    """Return the local feature size at samples of an unknown curve, estimated.
+
+    The local feature size of a point of a curve is its distance to the curve's medial axis (paper
+    [1]_, §5). For a known curve see `SmoothCurve.local_feature_size`.
+
+    Parameters
+    ----------
+    points : array_like of float, shape (n, 2), Points or Delaunay
+        Coordinates, in any one unit. Finite.
+    edges : array_like of int, shape (m, 2), optional
+        The curves' edges, as rows of the points; by default the crust.
+
+    Returns
+    -------
+    sizes : ndarray of float64, shape (n,)
+        In the unit of the points. NaN at isolated points, which are on no curve; 0 at branches,
+        where no curve is smooth; infinite if there is no axis, as along a straight line. A repeated
+        point has the size of the first of its kind.
+
+    Raises
+    ------
+    InputError
+        If the points or edges do not fit; the message names the first row at fault.
+
+    Notes
+    -----
+    The distance to the medial axis of a smooth interpolant: at each sample the tangent and the
+    curvature, a quadratic in arc length through five samples, limited so that it does not overshoot
+    where the curvature jumps; on each side the largest empty disk that touches there; the centers
+    of these disks, linked along the curve; and the centers of curvature at the extrema of the
+    curvature, where the axis ends. The distance is searched over the whole axis, and not the axis
+    next to the sample only.
+
+    An estimate, measured on ellipses up to 6:1, Fourier blobs and stadiums, sparsest and random
+    samples. At r = 0.2 the median error of the worst curve is 0.1 % (ellipses), 0.8 % (blobs), 8 %
+    (stadiums); 95 % of the errors are within 0.9, 6.4 and 13 %; the extremes are +36 % (a blob,
+    where the curvature peaks between samples) and -17 % (a stadium). At r = 0.1 the extremes are +6
+    % and -13 %, at r = 0.4 +70 % and -14 %. Where the curvature is continuous the error falls at
+    least with the square of r; where it jumps, as on a stadium, up to 13 % too little remain at any
+    r. For speed the axis is made of fewer, longer segments, less than 0.05 % off the distance, and
+    the search stops within as much of the nearest.
+
+    O(n log n) time: a million samples take about 1.3 times as long as their crust.
+
+    References
+    ----------
+    .. [1] N. Amenta, M. Bern, D. Eppstein, "The Crust and the β-Skeleton: Combinatorial Curve
+       Reconstruction", Graphical Models and Image Processing 60 (1998), 125-135. Section 5.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> angle = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+    >>> circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    >>> local_feature_size(circle, [(i, (i + 1) % 24) for i in range(24)]).round(6)[:3]
+    array([1., 1., 1.])
+    """
+    delaunay = as_delaunay(points)
+    return interpolant(delaunay, as_selected(delaunay, edges)).local_feature_size
