@@ -107,7 +107,7 @@ def test_points_of_degree_at_most_two() -> None:
 LAWS: dict[str, Callable[[Array], Array]] = {
     "scale": lambda points: points * 2.0**-40,
     "large": lambda points: points * 2.0**300,
-    "translation": lambda points: points + np.array([4096, -65536]),
+    "translation": lambda points: points - np.array([4096, 65536]),
     "quarter turn": lambda points: points[:, ::-1] * [-1, 1],
     "half turn": lambda points: -points,
     "mirror": lambda points: points * [1, -1],
@@ -116,7 +116,7 @@ LAWS: dict[str, Callable[[Array], Array]] = {
 
 
 def samples(seed: int, grid: bool) -> Array:
-    """Random points, or a noisy curve with outliers; on integers, where ties live, or not."""
+    """Random points, or a noisy curve with outliers; on a grid, where ties live, or in between."""
     rng = np.random.default_rng(seed)
     points = rng.random((rng.integers(3, 60), 2))
     if seed % 2:
