@@ -369,6 +369,258 @@ def nn_crust(points: Any) -> Edges:
     return s.edges(pairs)
 
 
+def _neighbors(s: PointSet) -> list[list[int]]:
+    """The neighbors of each point in the closed Delaunay graph."""
+    neighbors: list[list[int]] = [[] for _ in s.points]
+    for i, j in s.spans:
+        neighbors[i].append(j)
+        neighbors[j].append(i)
+    return neighbors
+
+
+def _mutual(s: PointSet, asked_for: Sequence[set[int]]) -> Edges:
+    """The pairs that ask for each other."""
+    return s.edges((i, j) for i, asked in enumerate(asked_for) for j in asked if i in asked_for[j])
+
+
+def _twice_nearest(s: PointSet, second: Callable[[int, int, int], bool]) -> list[set[int]]:
+    """For each point its nearest q, and the nearest of its neighbors that go with q."""
+    neighbors = _neighbors(s)
+    asked_for = []
+    for i in range(len(s.points)):
+        nearest = _nearest(s, i, [k for k in range(len(s.points)) if k != i])
+        also = (_nearest(s, i, [k for k in neighbors[i] if second(i, j, k)]) for j in nearest)
+        asked_for.append({*nearest, *(k for found in also for k in found)})
+    return asked_for
+
+
+def hnn_crust(points: Any) -> Edges:
+    """Mutual: every nearest q of p, and the nearest of those not nearer to q than to p."""
+    s = point_set(points)
+    return _unique(
+        _mutual(
+            s,
+            _twice_nearest(
+                s,
+                lambda p, q, r: r != q and _squared_length(s, r, p) <= _squared_length(s, r, q),
+            ),
+        )
+    )
+
+
+def compatible_crust(points: Any, cot: Fraction) -> Edges:
+    """Mutual: every nearest q of p, and the nearest of those at arccot(cot) to q or more."""
+    s = point_set(points)
+
+    def is_compatible(p: int, q: int, r: int) -> bool:
+        origin, a, b = s.points[p], s.points[q], s.points[r]
+        cross, dot = abs(_cross(origin, a, b)), _dot(origin, a, b)
+        return r != q and (dot < 0 if cross == 0 else dot <= cot * cross)
+
+    return _unique(_mutual(s, _twice_nearest(s, is_compatible)))
+
+
+def _unique(edges: Edges) -> Edges:
+    return sorted(set(edges))
+
+
+def sig_delaunay(points: Any) -> Edges:
+    """The spheres about the points, each out to the nearest other, meet; closed Delaunay edges."""
+    s = point_set(points)
+    others = [[k for k in range(len(s.points)) if k != i] for i in range(len(s.points))]
+    squares = [min((_squared_length(s, i, k) for k in o), default=0) for i, o in enumerate(others)]
+
+    def meet(i: int, j: int) -> bool:
+        # d <= a + b, and so d^2 - a^2 - b^2 <= 2 a b.
+        excess = _squared_length(s, i, j) - squares[i] - squares[j]
+        return excess <= 0 or excess * excess <= 4 * squares[i] * squares[j]
+
+    return s.edges(pair for pair in s.spans if meet(*pair))
+
+
+def _rank(s: PointSet, i: int, j: int) -> tuple[int, Point, Point]:
+    a, b = sorted((s.points[i], s.points[j]))
+    return _squared_length(s, i, j), a, b
+
+
+def _triangles(s: PointSet) -> list[tuple[int, int, int]]:
+    """All triples on an empty circle."""
+    triples = combinations(range(len(s.points)), 3)
+    centers = ((t, circumcenter(*(s.points[k] for k in t))) for t in triples)
+    return [t for t, c in centers if c is not None and s._is_empty(c, s.points[t[0]])]
+
+
+def peel(points: Any) -> Edges:
+    """Closed Delaunay edges, each triangle's longest off, then from the longest at degree > 2."""
+    s = point_set(points)
+    kept = set(s.spans)
+    for i, j, k in _triangles(s):
+        *_, second, longest = sorted(
+            ((i, j), (i, k), (j, k)), key=lambda pair: _squared_length(s, *pair)
+        )
+        if _squared_length(s, *longest) > _squared_length(s, *second):
+            kept.discard(longest)
+    for pair in sorted(kept, key=lambda pair: _rank(s, *pair), reverse=True):
+        if any(sum(end in other for other in kept) > 2 for end in pair):
+            kept.discard(pair)
+    return s.edges(kept)
+
+
+def crawl(points: Any) -> Edges:
+    """Curves from the shortest edges to a nearest point on, at both ends, the shorter step first."""
+    s = point_set(points)
+    neighbors = _neighbors(s)
+    joined: list[list[int]] = [[] for _ in s.points]
+
+    def step(v: int) -> tuple[Any, int, int] | None:
+        behind = joined[v][0]
+        ahead = [w for w in neighbors[v] if w != behind and w not in joined[behind]]
+        w = min(ahead, key=lambda w: _rank(s, v, w), default=None)
+        return None if w is None or len(joined[w]) > 1 else (_rank(s, v, w), v, w)
+
+    def join(v: int, w: int) -> None:
+        joined[v].append(w)
+        joined[w].append(v)
+
+    for i, j in sorted(s.spans, key=lambda pair: _rank(s, *pair)):
+        others = [[k for k in range(len(s.points)) if k != end] for end in (i, j)]
+        is_near = j in _nearest(s, i, others[0]) or i in _nearest(s, j, others[1])
+        if joined[i] or joined[j] or not is_near:
+            continue
+        join(i, j)
+        ends = [i, j]
+        while found := min(filter(None, map(step, ends)), default=None):
+            _, v, w = found
+            reached = bool(joined[w])
+            join(v, w)
+            ends = [end for end in ends if end not in (v, w)] + ([] if reached else [w])
+    return s.edges({(min(i, j), max(i, j)) for i, ends in enumerate(joined) for j in ends})
+
+
+def _dual_ends(s: PointSet) -> dict[tuple[int, int], tuple[Site | None, Site | None]]:
+    """The pairs whose dual Voronoi edge has a length, each with its ends; None at infinity."""
+    return {
+        (i, j): tuple(center_at(s.points[i], s.points[j], t) if t[1] else None for t in ends)
+        for (i, j), ends in s.spans.items()
+        if ends[0][1] == 0 == ends[1][1] or ends[0][0] * ends[1][1] < ends[1][0] * ends[0][1]
+    }  # type: ignore[return-value]
+
+
+def gathan(points: Any, sine: float, ratio: float) -> Edges:
+    """Mutual: the shortest on each side of the normal, near the tangent, short beside the cell."""
+    s = point_set(points)
+    dual = _dual_ends(s)
+    hull = _hull_neighbors(s)
+    neighbors: list[list[int]] = [[] for _ in s.points]
+    for i, j in dual:
+        neighbors[i].append(j)
+        neighbors[j].append(i)
+    squared_sine, squared_ratio = Fraction(sine) ** 2, Fraction(ratio) ** 2
+
+    def normals(i: int) -> list[tuple[Any, Any]]:
+        """Vectors, and their squared length where they lead to a pole."""
+        x, y = s.points[i]
+        if i in hull:
+            (ax, ay), (bx, by) = hull[i]
+            return [((ay - by, bx - ax), None)]
+        corners = {c for pair, ends in dual.items() if i in pair for c in ends if c is not None}
+        vectors = [(Fraction(cx, w) - x, Fraction(cy, w) - y) for cx, cy, w in corners]
+        far = max(vx * vx + vy * vy for vx, vy in vectors)
+        return [(v, far) for v in vectors if v[0] ** 2 + v[1] ** 2 == far]
+
+    def asked_for(i: int) -> set[int]:
+        asked: set[int] = set()
+        for (nx, ny), far in normals(i) if neighbors[i] else []:
+            sides: dict[bool, list[int]] = {False: [], True: []}
+            for j in neighbors[i]:
+                ex, ey = s.points[j][0] - s.points[i][0], s.points[j][1] - s.points[i][1]
+                along, across, square = nx * ex + ny * ey, nx * ey - ny * ex, ex * ex + ey * ey
+                is_flat = along**2 <= squared_sine * (nx * nx + ny * ny) * square
+                is_short = far is None or far >= squared_ratio * square
+                if across and is_flat and is_short:
+                    sides[across > 0].append(j)
+            for side in sides.values():
+                asked.update(_nearest(s, i, side))
+        return asked
+
+    return _unique(_mutual(s, [asked_for(i) for i in range(len(s.points))]))
+
+
+def _hull_neighbors(s: PointSet) -> dict[int, tuple[Point, Point]]:
+    """The points of the hull, each with those before and after it, counter-clockwise.
+
+    Two points are successive on the hull if none is right of them or between them. At the end of a
+    line the two are the point itself and its neighbor, in an order that decides only a sign.
+    """
+    after: dict[int, int] = {}
+    count = range(len(s.points))
+    for i in count:
+        for j in count:
+            p, q = s.points[i], s.points[j]
+            if i != j and all(
+                _cross(p, q, s.points[k]) > 0
+                or (_cross(p, q, s.points[k]) == 0 and _dot(s.points[k], p, q) > 0)
+                for k in count
+                if k not in (i, j)
+            ):
+                after[i] = j
+    before = {j: i for i, j in after.items()}
+    is_line = all(_cross(*(s.points[k] for k in t)) == 0 for t in combinations(count, 3))
+    if is_line:
+        ends: dict[int, tuple[Point, Point]] = {}
+        order = sorted(s.points)
+        for i, p in enumerate(s.points):
+            k = order.index(p)
+            ends[i] = (order[max(k - 1, 0)], order[min(k + 1, len(order) - 1)])
+        return ends
+    return {i: (s.points[before[i]], s.points[after[i]]) for i in after if i in before}
+
+
+def conservative_crust(points: Any, ratio: float) -> Edges:
+    """The largest set of Gabriel edges whose disks meet no vertex and no edge of the medial axis.
+
+    Disks are about the middles, `ratio` times as large as the smallest. The medial axis is what the
+    Voronoi edges make whose points are not joined.
+    """
+    s = point_set(points)
+    dual = _dual_ends(s)
+    gabriel_pairs = set(gabriel(s))
+    row = {r: k for k, r in enumerate(s.rows)}
+    kept = {tuple(sorted((row[i], row[j]))) for i, j in gabriel_pairs} & set(dual)
+
+    def meets(e: tuple[int, int], f: tuple[int, int]) -> bool:
+        """Whether the disk of e meets the dual of f."""
+        (px, py), (qx, qy) = (s.points[k] for k in e)
+        mx, my = Fraction(px + qx, 2), Fraction(py + qy, 2)
+        square = Fraction(ratio) ** 2 * _squared_length(s, *e) / 4
+        (ax, ay), (bx, by) = (s.points[k] for k in f)
+        # The dual as middle + t * normal.
+        nx, ny = ay - by, bx - ax
+        cx, cy = Fraction(ax + bx, 2), Fraction(ay + by, 2)
+        t = ((mx - cx) * nx + (my - cy) * ny) / (nx * nx + ny * ny)
+        (lo_n, lo_d), (hi_n, hi_d) = s.spans[f]
+        t = max(t, Fraction(lo_n, lo_d)) if lo_d else t
+        t = min(t, Fraction(hi_n, hi_d)) if hi_d else t
+        return (cx + t * nx - mx) ** 2 + (cy + t * ny - my) ** 2 < square
+
+    def holds_vertex(e: tuple[int, int]) -> bool:
+        (px, py), (qx, qy) = (s.points[k] for k in e)
+        square = Fraction(ratio) ** 2 * _squared_length(s, *e) / 4
+        return any(
+            (Fraction(x, w) - Fraction(px + qx, 2)) ** 2
+            + (Fraction(y, w) - Fraction(py + qy, 2)) ** 2
+            < square
+            for x, y, w in s.vertices
+        )
+
+    kept = {e for e in kept if not holds_vertex(e)}
+    while True:
+        gone = {e for e in kept if any(meets(e, f) for f in set(dual) - kept)}
+        if not gone:
+            return s.edges(kept)
+        kept -= gone
+
+
 def _nearest(s: PointSet, i: int, among: Sequence[int]) -> list[int]:
     """All those at the least distance from point i."""
     least = min((_squared_length(s, i, k) for k in among), default=0)

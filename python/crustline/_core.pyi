@@ -112,6 +112,45 @@ def nn_crust(
     threads: int | None = None,
     progress: _Progress | None = None,
 ) -> _Integers: ...
+def hnn_crust(
+    delaunay: Delaunay,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
+def compatible_crust(
+    delaunay: Delaunay,
+    cotangent: float,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
+def conservative_crust(
+    delaunay: Delaunay,
+    ratio: float,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
+def gathan(
+    delaunay: Delaunay,
+    sine: float,
+    ratio: float,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
+def crawl(
+    delaunay: Delaunay,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
+def peel(
+    delaunay: Delaunay,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
+def sig_delaunay(
+    delaunay: Delaunay,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
 def minimum_spanning_tree(
     delaunay: Delaunay,
     threads: int | None = None,

@@ -70,8 +70,23 @@ fn face(delaunay: &Delaunay, edge: Edge) -> Option<Vec<u32>> {
     Some(ring)
 }
 
+/// The points on the empty circle to the left of u → v, but these two: one, or more where there are ties.
+#[must_use]
+pub fn corners(delaunay: &Delaunay, u: u32, v: u32) -> Vec<u32> {
+    let mut corners = Vec::with_capacity(1);
+    let mut open = vec![between(delaunay, u, v)];
+    while let Some(Edge { p: u, q: v, left, .. }) = open.pop() {
+        let Some(apex) = left else { continue };
+        corners.push(apex);
+        let beyond = [(u, apex), (apex, v)].map(|(u, v)| between(delaunay, u, v));
+        open.extend(beyond.into_iter().filter(|&edge| is_tied(delaunay, edge)));
+    }
+    corners
+}
+
 /// Do the apexes of `edge` lie on one circle with it?
-fn is_tied(delaunay: &Delaunay, edge: Edge) -> bool {
+#[must_use]
+pub fn is_tied(delaunay: &Delaunay, edge: Edge) -> bool {
     let (Some(left), Some(right)) = (edge.left, edge.right) else {
         return false;
     };

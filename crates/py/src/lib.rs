@@ -28,8 +28,10 @@ mod _core {
     use crate::medial_axis::medial_axis;
     #[pymodule_export]
     use crate::methods::{
-        a_shape, alpha_shape, beta_skeleton, crossing_angle_graph, crust, gabriel, gamma_graph,
-        minimum_spanning_tree, nn_crust, one_step_crust, rcgh, relative_neighborhood,
+        a_shape, alpha_shape, beta_skeleton, compatible_crust, conservative_crust, crawl,
+        crossing_angle_graph, crust, gabriel, gamma_graph, gathan, hnn_crust,
+        minimum_spanning_tree, nn_crust, one_step_crust, peel, rcgh, relative_neighborhood,
+        sig_delaunay,
     };
     #[pymodule_export]
     use crate::trace::trace;

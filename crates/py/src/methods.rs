@@ -73,6 +73,26 @@ bind! {
     rcgh() => methods::rcgh;
     /// The NN-crust.
     nn_crust() => methods::nn_crust;
+    /// The HNN-crust.
+    hnn_crust() => methods::hnn_crust;
+    /// The NN-crust whose two edges at a point make at least the angle of `cotangent`.
+    compatible_crust(cotangent: f64) => |delaunay, progress| {
+        methods::compatible_crust(delaunay, cotangent, progress)
+    };
+    /// The conservative crust, of disks `ratio` times the smallest.
+    conservative_crust(ratio: f64) => |delaunay, progress| {
+        methods::conservative_crust(delaunay, ratio, progress)
+    };
+    /// Gathan: edges at most at the angle of `sine` to the tangent, in cells `ratio` times as long.
+    gathan(sine: f64, ratio: f64) => |delaunay, progress| {
+        methods::gathan(delaunay, sine, ratio, progress)
+    };
+    /// Curves that grow from short edges.
+    crawl() => methods::crawl;
+    /// What is left when the longest edges are peeled off.
+    peel() => methods::peel;
+    /// The spheres-of-influence graph within the closed Delaunay graph.
+    sig_delaunay() => methods::sig_delaunay;
     /// The Euclidean minimum spanning tree.
     minimum_spanning_tree() => methods::minimum_spanning_tree;
 }

@@ -1,0 +1,108 @@
+//! Crawling through neighbors.
+//!
+//! A. D. Parakkat and R. Muthuganapathy, "Crawl through Neighbors: A Simple Curve Reconstruction
+//! Algorithm", Computer Graphics Forum 35 (2016).
+
+use super::length::Ranked;
+use super::neighborhood::Neighborhood;
+use crate::delaunay::{Delaunay, NONE};
+use crate::edges::{Edges, rows, sort};
+use crate::error::Result;
+use crate::progress::{Progress, Stage};
+use rayon::prelude::*;
+
+/// The curves that grow from short edges at both ends, to the nearest neighbor each time.
+///
+/// A curve starts as the shortest edge between two free points one of which is nearest to the other.
+/// An end grows to its nearest neighbor in the closed Delaunay graph but the two points that it came
+/// from, and stops if that one has two edges already; the end with the shorter step goes first. Of
+/// equally long edges that with the lexicographically smaller end comes first, then that with the
+/// smaller other end. O(n log n).
+///
+/// # Errors
+/// A cancelled `progress`.
+pub fn crawl(delaunay: &Delaunay, progress: &Progress) -> Result<Edges> {
+    let count = delaunay.points().len();
+    progress.enter(Stage::Select, count)?;
+    let neighborhood = Neighborhood::new(delaunay);
+    let seeds = seeds(&neighborhood);
+    progress.advance(count / 2)?;
+    let mut curves = Curves { neighborhood, joined: vec![[NONE; 2]; count] };
+    for seed in seeds {
+        if [seed.p, seed.q].into_iter().all(|end| curves.degree(end) == 0) {
+            curves.grow(seed);
+        }
+    }
+    progress.advance(0)?;
+    Ok(sort(&[curves.edges()], delaunay.input_len()))
+}
+
+/// The edges from points to their nearest, the shortest first.
+fn seeds(neighborhood: &Neighborhood) -> Vec<Ranked> {
+    let delaunay = neighborhood.delaunay;
+    let from = |p: u32| {
+        let nearest = neighborhood.nearest(p, neighborhood.of(p));
+        nearest.into_iter().map(move |q| Ranked::new(delaunay, p, q))
+    };
+    let points = (0..delaunay.points().len() as u32).into_par_iter();
+    let mut seeds: Vec<Ranked> = points.flat_map_iter(from).collect();
+    seeds.par_sort_unstable_by(|a, b| a.compare(b, delaunay));
+    seeds
+}
+
+/// Curves that grow.
+struct Curves<'a> {
+    neighborhood: Neighborhood<'a>,
+    /// The up to two points that each is joined to.
+    joined: Vec<[u32; 2]>,
+}
+
+impl Curves<'_> {
+    fn degree(&self, vertex: u32) -> usize {
+        self.joined[vertex as usize].iter().filter(|&&end| end != NONE).count()
+    }
+
+    fn join(&mut self, p: u32, q: u32) {
+        for (from, to) in [(p, q), (q, p)] {
+            let free = self.degree(from);
+            self.joined[from as usize][free] = to;
+        }
+    }
+
+    /// Grow a curve from `seed` until both ends stop.
+    fn grow(&mut self, seed: Ranked) {
+        self.join(seed.p, seed.q);
+        let mut ends = vec![seed.p, seed.q];
+        loop {
+            let steps = ends.iter().filter_map(|&end| Some((self.step(end)?, end)));
+            let shorter = |(a, _): &(Ranked, u32), (b, _): &(Ranked, u32)| {
+                a.compare(b, self.neighborhood.delaunay)
+            };
+            let Some((step, from)) = steps.min_by(shorter) else { return };
+            let to = if step.p == from { step.q } else { step.p };
+            let was_free = self.degree(to) == 0;
+            self.join(from, to);
+            // A ring is closed, or another curve, which has stopped, is reached: nothing grows here.
+            ends.retain(|&end| end != from && end != to);
+            ends.extend(Some(to).filter(|_| was_free));
+        }
+    }
+
+    /// The edge by which the end `from` grows, if it does.
+    fn step(&self, from: u32) -> Option<Ranked> {
+        let delaunay = self.neighborhood.delaunay;
+        let behind = self.joined[from as usize][0];
+        let is_ahead = |&to: &u32| to != behind && !self.joined[behind as usize].contains(&to);
+        let steps = self.neighborhood.of(from).filter(is_ahead);
+        let steps = steps.map(|to| (Ranked::new(delaunay, from, to), to));
+        let (step, to) = steps.min_by(|(a, _), (b, _)| a.compare(b, delaunay))?;
+        (self.degree(to) < 2).then_some(step)
+    }
+
+    fn edges(&self) -> Edges {
+        let from = |(p, ends): (usize, &[u32; 2])| ends.map(|q| (p as u32, q));
+        let pairs = self.joined.iter().enumerate().flat_map(from);
+        let once = pairs.filter(|&(p, q)| q != NONE && p < q);
+        once.map(|(p, q)| rows(self.neighborhood.delaunay, p, q)).collect()
+    }
+}

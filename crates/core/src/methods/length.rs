@@ -1,0 +1,98 @@
+//! Lengths of edges, compared exactly.
+
+use crate::delaunay::Delaunay;
+use crate::exact::sign::{self, Form, Number, exact_sign};
+use crate::point::{Point, dot, lexicographic, sub};
+use std::cmp::Ordering;
+
+/// The distance from `p` to `a`, compared with that to `b`.
+#[inline]
+pub(super) fn compare_distances(p: Point, a: Point, b: Point) -> Ordering {
+    let (u, v) = (sub(a, p), sub(b, p));
+    let (u, v) = (dot(u, u), dot(v, v));
+    if (u - v).abs() > 8.0 * f64::EPSILON * (u + v) + f64::MIN_POSITIVE {
+        return u.total_cmp(&v);
+    }
+    sign::sign(&Nearer, p, &[a, b])
+}
+
+/// The difference of the squared distances from the origin: negative if the first is nearer.
+struct Nearer;
+
+impl Form<2> for Nearer {
+    fn bound(&self, bits: u32) -> u32 {
+        2 * bits + 2
+    }
+    fn value<T: Number>(&self, [a, b]: &[[T; 2]; 2]) -> T {
+        sign::dot(a, a).minus(&sign::dot(b, b))
+    }
+}
+
+/// An edge with its place in the one order of all edges: by length, then by its ends.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ranked {
+    /// The lexicographically smaller end.
+    pub p: u32,
+    /// The other end.
+    pub q: u32,
+    square: f64,
+    /// Is `square` the squared length without any rounding?
+    is_exact: bool,
+}
+
+impl Ranked {
+    /// The edge between two vertices.
+    pub fn new(delaunay: &Delaunay, mut p: u32, mut q: u32) -> Self {
+        if lexicographic(&delaunay.point(p), &delaunay.point(q)).is_gt() {
+            (p, q) = (q, p);
+        }
+        let (square, is_exact) = squared_distance(delaunay.point(p), delaunay.point(q));
+        Self { p, q, square, is_exact }
+    }
+
+    /// The order by length, then by the smaller end, then by the other.
+    pub fn compare(&self, other: &Self, delaunay: &Delaunay) -> Ordering {
+        let ends = |edge: &Self| [delaunay.point(edge.p), delaunay.point(edge.q)];
+        let (a, b) = (ends(self), ends(other));
+        let by_ends = || lexicographic(&a[0], &b[0]).then_with(|| lexicographic(&a[1], &b[1]));
+        self.compare_lengths(other, a, b).then_with(by_ends)
+    }
+
+    fn compare_lengths(&self, other: &Self, [p, q]: [Point; 2], [r, s]: [Point; 2]) -> Ordering {
+        let difference = self.square - other.square;
+        let bound = 8.0 * f64::EPSILON * (self.square + other.square) + f64::MIN_POSITIVE;
+        if difference.abs() > bound || (self.is_exact && other.is_exact) {
+            return difference.total_cmp(&0.0);
+        }
+        exact_sign(&Longer, p, &[q, r, s])
+    }
+}
+
+/// The squared distance, and whether no rounding was needed; lattices have many equally long edges.
+fn squared_distance(p: Point, q: Point) -> (f64, bool) {
+    let [(x, x_exact), (y, y_exact)] = [0, 1].map(|axis| {
+        let difference = q[axis] - p[axis];
+        let is_exact = p[axis] + difference == q[axis] && q[axis] - difference == p[axis];
+        (difference * difference, is_exact && is_short(difference))
+    });
+    let square = x + y;
+    (square, x_exact && y_exact && square - x == y && square - y == x)
+}
+
+/// Is the square of `x` a double, far from underflow: does `x` have at most 26 significant bits?
+fn is_short(x: f64) -> bool {
+    x == 0.0 || (x.abs() > 1e-150 && x.to_bits().trailing_zeros() >= 27)
+}
+
+/// The squared length of the edge from the origin to the first point, less that between the others.
+struct Longer;
+
+impl Form<3> for Longer {
+    fn bound(&self, bits: u32) -> u32 {
+        2 * bits + 4
+    }
+    fn value<T: Number>(&self, [q, r, s]: &[[T; 2]; 3]) -> T {
+        let other = sign::difference(s, r);
+        sign::dot(q, q).minus(&sign::dot(&other, &other))
+    }
+}

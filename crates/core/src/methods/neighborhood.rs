@@ -1,0 +1,112 @@
+//! The closed Delaunay graph, seen from its points.
+
+use super::length::compare_distances;
+use crate::cocircular::diagonals;
+use crate::delaunay::{Delaunay, Edge};
+use crate::edges::{Edges, rows, sort};
+use crate::error::Result;
+use crate::progress::{Progress, Stage};
+use rayon::prelude::*;
+use std::cmp::Ordering::Equal;
+
+/// The closed Delaunay graph, seen from its points.
+pub(super) struct Neighborhood<'a> {
+    /// The triangulation.
+    pub delaunay: &'a Delaunay,
+    /// Ends of the diagonals between cocircular points, both ways, sorted.
+    tied: Vec<(u32, u32)>,
+}
+
+impl<'a> Neighborhood<'a> {
+    /// The neighbors of all points.
+    pub fn new(delaunay: &'a Delaunay) -> Self {
+        let both = |edge: Edge| [(edge.p, edge.q), (edge.q, edge.p)];
+        let mut tied: Vec<_> = diagonals(delaunay).into_iter().flat_map(both).collect();
+        tied.par_sort_unstable();
+        Self { delaunay, tied }
+    }
+
+    /// The neighbors of `p`; those that tie in the triangulation may come twice.
+    pub fn of(&self, p: u32) -> impl Iterator<Item = u32> {
+        let start = self.tied.partition_point(|&(from, _)| from < p);
+        let tied = self.tied[start..].iter().take_while(move |&&(from, _)| from == p);
+        let star = self.delaunay.star(p).neighbors.iter().copied();
+        star.chain(tied.map(|&(_, to)| to))
+    }
+
+    /// All those at the least distance from `p`.
+    pub fn nearest(&self, p: u32, among: impl Iterator<Item = u32>) -> Vec<u32> {
+        let mut nearest: Vec<u32> = Vec::new();
+        let at = |vertex| self.delaunay.point(vertex);
+        for s in among {
+            let order =
+                nearest.first().map_or(Equal, |&best| compare_distances(at(p), at(s), at(best)));
+            if order.is_lt() {
+                nearest.clear();
+            }
+            if order.is_le() && !nearest.contains(&s) {
+                nearest.push(s);
+            }
+        }
+        nearest
+    }
+
+    /// The neighbors that `p` asks for: the nearest and, for each of them, the nearest that `second` admits.
+    ///
+    /// `second` gets p, one that is nearest, and a neighbor. Equally near ones are all in.
+    pub fn asked_for(&self, p: u32, second: impl Fn(u32, u32, u32) -> bool) -> Vec<u32> {
+        let nearest = self.nearest(p, self.delaunay.star(p).neighbors.iter().copied());
+        let mut asked_for = nearest.clone();
+        for q in nearest {
+            asked_for.extend(self.nearest(p, self.of(p).filter(|&s| second(p, q, s))));
+        }
+        asked_for
+    }
+}
+
+/// The edges from each vertex to those that `ends` gives, as rows.
+///
+/// # Errors
+/// A cancelled `progress`.
+pub(super) fn collect<I: IntoIterator<Item = u32>>(
+    delaunay: &Delaunay,
+    progress: &Progress,
+    ends: impl Fn(u32) -> I + Sync,
+) -> Result<Edges> {
+    /// Vertices that one task takes at a time.
+    const GRAIN: usize = 1 << 12;
+    let count = delaunay.points().len();
+    progress.enter(Stage::Select, count)?;
+    let part = |start: usize| {
+        let end = (start + GRAIN).min(count);
+        let mut edges = Edges::new();
+        for p in start as u32..end as u32 {
+            edges.extend(ends(p).into_iter().map(|q| rows(delaunay, p, q)));
+        }
+        progress.advance(end - start)?;
+        Ok(edges)
+    };
+    let starts: Vec<usize> = (0..count).step_by(GRAIN).collect();
+    let parts = starts.into_par_iter().map(part).collect::<Result<Vec<Edges>>>()?;
+    let mut edges = sort(&parts, delaunay.input_len());
+    edges.dedup();
+    Ok(edges)
+}
+
+/// The edges whose two ends ask for each other, as rows.
+///
+/// # Errors
+/// A cancelled `progress`.
+pub(super) fn mutual(
+    delaunay: &Delaunay,
+    progress: &Progress,
+    asked_for: impl Fn(u32) -> Vec<u32> + Sync + Send,
+) -> Result<Edges> {
+    let asked: Vec<Vec<u32>> =
+        (0..delaunay.points().len() as u32).into_par_iter().map(asked_for).collect();
+    collect(delaunay, progress, |p| {
+        let asked = &asked;
+        let is_mutual = move |&q: &u32| q > p && asked[q as usize].contains(&p);
+        asked[p as usize].iter().copied().filter(is_mutual)
+    })
+}
