@@ -49,7 +49,7 @@ def report(tool: tuple[str, ...], before: str, program: str, *arguments: str) ->
 
 def counts(program: str) -> dict[str, int]:
     """Return all counts by what is counted: the work, the distribution, the unit."""
-    found = {}
+    found: dict[str, int] = {}
     for work, distributions in DISTRIBUTIONS.items():
         for name in distributions:
             asked = (name, str(N), "1", work)

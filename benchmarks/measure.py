@@ -143,4 +143,4 @@ def compare_edges(results: dict[Contender, Result], workers: dict[Contender, Wor
 
 def edge_keys(edges: np.ndarray, n: int) -> np.ndarray:
     low, high = distinct_edges(edges, n).T
-    return low * n + high
+    return np.asarray(low * n + high)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.patches import Arc, Polygon
+from matplotlib.patches import Arc, Circle, Polygon
 
 import crustline as cl
 from crustline import plot, shapes
@@ -52,23 +52,33 @@ def tangent_center(curve: shapes.SmoothCurve, t: float) -> Rows:
     p, n = curve.point(t), curve.normal(t)
     apart = curve.point(np.linspace(0, 1, 20_000, endpoint=False) + 1e-5) - p
     bend = 2 * apart @ n / np.sum(apart**2, axis=1)
-    return p + n / bend.max()
+    return np.asarray(p + n / bend.max())
 
 
 def nearest_on_axis(curve: shapes.SmoothCurve, p: Rows) -> Rows:
     vertices = curve.medial_axis().vertices
-    return vertices[np.argmin(np.hypot(*(vertices - p).T))]
+    return np.asarray(vertices[np.argmin(np.hypot(*(vertices - p).T))])
 
 
 def draw_line(
     ax: Axes,
-    a: Sequence[float],
-    b: Sequence[float],
+    a: Any,
+    b: Any,
     color: str,
     style: str = "-",
     width: float = 1.4,
 ) -> None:
     ax.plot([a[0], b[0]], [a[1], b[1]], style, color=color, linewidth=width, zorder=3)
+
+
+def draw_disk(
+    ax: Axes, center: Any, radius: float, *, fill: str = "", edge: str = "none", alpha: float = 1.0
+) -> None:
+    """Draw a disk without border, or the circle around it."""
+    x, y = center
+    face, width = fill or "none", 0.0 if fill else 1.3
+    circle = Circle((x, y), radius, facecolor=face, alpha=alpha, edgecolor=edge, linewidth=width)
+    ax.add_patch(circle)
 
 
 def draw_dots(ax: Axes, places: Iterable[Any]) -> None:

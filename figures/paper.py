@@ -27,6 +27,7 @@ from figures.drawing import (
     dense_points,
     draw_axis,
     draw_curve,
+    draw_disk,
     draw_dots,
     draw_line,
     mark_angle,
@@ -156,8 +157,8 @@ def figure_5() -> Figure:
     draw_curve(ax, curve)
     draw_axis(ax, curve, 0.03, box, outer=False)
     radius = math.dist(p, far)
-    ax.add_patch(Circle(far, radius, facecolor=SKY, alpha=0.18, edgecolor="none"))
-    ax.add_patch(Circle(far, radius, facecolor="none", edgecolor=SKY, linewidth=1.2))
+    draw_disk(ax, far, radius, fill=SKY, alpha=0.18)
+    draw_disk(ax, far, radius, edge=SKY)
     draw_line(ax, p, far, BLUE, "--")
     draw_line(ax, p, near, VERMILLION, "-", width=2.2)
     draw_dots(ax, [p, far, near])
@@ -203,7 +204,7 @@ def figure_7() -> Figure:
     x = np.array([0.0, s[1]])
     box = (-1.2, -0.16, 1.4, 1.14)
     figure, (ax,) = bare_panels(1, box, width=5.2)
-    ax.add_patch(Arc(c, 2, 2, theta1=195, theta2=345, color=BLUE, linewidth=2))
+    ax.add_patch(Arc((0, 1), 2, 2, theta1=195, theta2=345, color=BLUE, linewidth=2))
     draw_line(ax, (-1.15, 0), (1.35, 0), GRAY)
     for q, color in ((s, VERMILLION), (c, BLACK)):
         draw_line(ax, p, q, color)
@@ -212,12 +213,12 @@ def figure_7() -> Figure:
     mark_angle(ax, c, -90, -90 + math.degrees(gamma), 0.3, "γ", 0.38)
     mark_angle(ax, p, 0, math.degrees(alpha), 0.5)
     draw_dots(ax, [p, c, s, x])
-    for name, q, offset in (
+    for name, at, offset in (
         ("p", p, (-5, -16)), ("c", c, (-4, 7)), ("s", s, (8, -4)), ("x", x, (-15, -3)),
         ("L", (1.27, 0), (0, 5)), ("1", (p + c) / 2, (-12, 8)), ("1", (c + s) / 2, (6, 4)),
         ("r", (p + s) / 2, (-8, 4)), ("α", (0.53, 0.03), (0, 0)),
     ):  # fmt: skip
-        write_at(ax, name, q, offset)
+        write_at(ax, name, at, offset)
     write_at(ax, "sin γ", (s + x) / 2, (-16, 5), GREEN)
     show_just(ax, box)
     return figure
@@ -236,10 +237,10 @@ def figure_8() -> Figure:
     s1, v, p = s2 * [-1, 1], np.array([0.0, r]), np.zeros(2)
     box = (-1.03, -1.03, 1.03, 1.03)
     figure, (ax,) = bare_panels(1, box, width=5.2)
-    ax.add_patch(Circle(p, 1, facecolor="none", edgecolor=GRAY, linewidth=1.3))
-    ax.add_patch(Circle(v, math.dist(v, s2), facecolor=SKY, alpha=0.25, edgecolor="none"))
-    ax.add_patch(Circle(v, math.dist(v, s2), facecolor="none", edgecolor=BLUE, linewidth=1.3))
-    ax.add_patch(Circle(p, r, facecolor="none", edgecolor=VERMILLION, linewidth=1.3))
+    draw_disk(ax, p, 1, edge=GRAY)
+    draw_disk(ax, v, math.dist(v, s2), fill=SKY, alpha=0.25)
+    draw_disk(ax, v, math.dist(v, s2), edge=BLUE)
+    draw_disk(ax, p, r, edge=VERMILLION)
     # The curve at its most curved: the tangent circle of radius one below.
     ax.add_patch(Arc((0, -1), 2, 2, theta1=52, theta2=128, color=BLACK, linewidth=2.4))
     for q in (s1, s2, v):
@@ -247,14 +248,14 @@ def figure_8() -> Figure:
     draw_line(ax, v, s2, BLUE, width=1.1)
     mark_angle(ax, p, -math.degrees(alpha), 90, 0.11, "ψ", 0.17)
     draw_dots(ax, [s1, s2, p, v])
-    for name, q, offset, color in (
+    for name, at, offset, color in (
         ("s₁", s1, (-25, 5), BLACK), ("s₂", s2, (13, 5), BLACK), ("p", p, (-4, -16), BLACK),
         ("v", v, (-4, 7), BLACK), ("r", v / 2, (-11, -2), VERMILLION),
         ("R", (v + s2) / 2, (5, 4), BLUE), ("V", (-0.46, 0.62), (0, 0), BLUE),
         ("B", (-0.06, -0.36), (0, 0), VERMILLION), ("B′", (-0.78, 0.42), (0, 0), "#666666"),
         ("F", (-0.58, -0.27), (0, 0), BLACK),
     ):  # fmt: skip
-        write_at(ax, name, q, offset, color)
+        write_at(ax, name, at, offset, color)
     show_just(ax, box)
     return figure
 

@@ -467,7 +467,7 @@ def peel(points: Any) -> Edges:
 
 
 def crawl(points: Any) -> Edges:
-    """Curves from the shortest edges to a nearest point on, at both ends, the shorter step first."""
+    """Curves from the shortest edges to a nearest point on, at both ends, the shorter first."""
     s = point_set(points)
     neighbors = _neighbors(s)
     joined: list[list[int]] = [[] for _ in s.points]
@@ -500,10 +500,10 @@ def crawl(points: Any) -> Edges:
 def _dual_ends(s: PointSet) -> dict[tuple[int, int], tuple[Site | None, Site | None]]:
     """The pairs whose dual Voronoi edge has a length, each with its ends; None at infinity."""
     return {
-        (i, j): tuple(center_at(s.points[i], s.points[j], t) if t[1] else None for t in ends)
+        (i, j): tuple(center_at(s.points[i], s.points[j], t) if t[1] else None for t in ends)  # type: ignore[misc]
         for (i, j), ends in s.spans.items()
         if ends[0][1] == 0 == ends[1][1] or ends[0][0] * ends[1][1] < ends[1][0] * ends[0][1]
-    }  # type: ignore[return-value]
+    }
 
 
 def gathan(points: Any, sine: float, ratio: float) -> Edges:

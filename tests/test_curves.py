@@ -29,7 +29,8 @@ def square(center=(0.0, 0.0), half=1.0):
 
 def rings(*outlines):
     """Trace outlines, each a ring; the k-th ring holds rows in the order of the outlines."""
-    points, edges = [], []
+    points: list = []
+    edges: list = []
     for outline in outlines:
         rows = range(len(points), len(points) + len(outline))
         edges += cycle(list(rows))

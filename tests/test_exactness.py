@@ -296,7 +296,8 @@ def test_delaunay_edges_lie_between_the_ties() -> None:
 def permuted(edges: list[tuple[int, int]], order: NDArray[np.int64]) -> list[tuple[int, int]]:
     """Edges over rows k of the original as edges over the rows of points[order]."""
     place = np.argsort(order)
-    return sorted(tuple(sorted((int(place[i]), int(place[j])))) for i, j in edges)
+    pairs = (sorted((int(place[i]), int(place[j]))) for i, j in edges)
+    return sorted((i, j) for i, j in pairs)
 
 
 ALL = {

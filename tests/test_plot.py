@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -54,7 +54,7 @@ def drawn(ax: Any, color: str) -> Floats:
             or to_hex(lines.get_edgecolor()[0]) != color.lower()
         ):
             continue
-        for outline in lines.get_paths():
+        for outline in cast(list[Any], lines.get_paths()):
             joined = np.flatnonzero(outline.codes[1:] == outline.LINETO)
             found.append(np.stack([outline.vertices[joined], outline.vertices[joined + 1]], axis=1))
     return np.concatenate(found)
@@ -251,7 +251,7 @@ def test_local_feature_size_is_gray_where_there_is_none() -> None:
 
 
 def test_indices_are_rows_beside_their_points() -> None:
-    ax = plot.plot_points(SQUARE, indices=True)
+    ax: Any = plot.plot_points(SQUARE, indices=True)
     assert [(text.get_text(), list(text.xy)) for text in ax.texts] == [
         (str(row), place) for row, place in enumerate(SQUARE.tolist())
     ]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import pickle
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -53,7 +54,7 @@ def test_copies_and_pickles_carry_all_and_are_equal(points, duplicate):
     assert not any(each.flags.writeable for each in (other.xy, other.z, *other.columns.values()))
 
 
-SERVES_AS_ARRAY = {
+SERVES_AS_ARRAY: dict[str, Callable] = {
     "slice": lambda p: p[1:],
     "row": lambda p: p[1],
     "mask": lambda p: p[np.array([True, False, True])],

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 from matplotlib.axes import Axes
@@ -51,7 +53,7 @@ def draw_orders(sizes: dict[str, list[Rows]], errors: dict[str, Rows]) -> Figure
     for name, (color, marker) in chosen.items():
         if name not in sizes:
             continue
-        style = {"color": color, "marker": marker, "markersize": 4}
+        style: dict[str, Any] = {"color": color, "marker": marker, "markersize": 4}
         sized = [sizes[name][SIZED.index(r)] for r in HALVED]
         size = np.array([(np.median(np.abs(e)), np.abs(e).max()) for e in sized])
         left.plot(HALVED, np.maximum(size[:, 0], 1e-7), "-", label=f"{name}, median", **style)

@@ -36,17 +36,16 @@ def _percent(share: float) -> str:
 
 def threshold_table(t: Trials) -> str:
     """Return for each method what is proven and up to which r all trials were right."""
-    names = {"crust": ("crust",), "β = 1.7": ("beta_skeleton", 1.7),
-             "β = 1.25": ("beta_skeleton", 1.25), "β = 1.3": ("beta_skeleton", 1.3)}  # fmt: skip
+    proven = {"crust": theory.guaranteed_r("crust")}
+    proven |= {f"β = {beta:g}": theory.guaranteed_r("beta_skeleton", beta) for beta in BETAS}
     rows = []
     for m, name in enumerate(METHODS):
-        proven = f"{theory.guaranteed_r(*names[name]):.4f}" if name in names else "–"
-        cells = []
+        cells = [f"{proven[name]:.4f}" if name in proven else "–"]
         for mode in range(len(MODES)):
-            right = t.exact[:, mode, :, :, m].all(axis=(0, 2))
+            right = np.asarray(t.exact[:, mode, :, :, m].all(axis=(0, 2)))
             first = int(np.argmin(right)) if not right.all() else len(right)
             cells.append(f"{t.ratios[first - 1]:g}" if first else f"< {t.ratios[0]:g}")
-        rows.append([name, proven, *cells])
+        rows.append([name, *cells])
     return table(["method", "proven for r below", *(f"all right up to ({m})" for m in MODES)], rows)
 
 
@@ -65,8 +64,10 @@ def error_table(t: Trials) -> str:
     return table(["r", *METHODS], rows)
 
 
+#: Of the β-skeletons tried.
+BETAS = (1.7, 1.25, 1.3)
 #: Shares of exact reconstructions (percent) in an earlier study of ours, sparsest samples.
-EARLIER = {
+EARLIER: dict[str, dict[float, float]] = {
     "crust": {0.65: 100, 0.7: 99.5, 0.8: 98, 0.9: 97, 1.0: 94},
     "β = 1.7": {0.6: 100, 0.65: 79, 0.7: 34},
     "β = 1.25": {0.8: 99},

@@ -58,7 +58,9 @@ def trials(every: int, ratios: tuple[float, ...], starts: int) -> Trials:
     names = [(name, k) for name, family in families().items() for k in range(len(family))]
     with Pool(PROCESSES) as pool:
         rows = pool.map(partial(_tried, ratios=ratios, starts=starts), names[::every], chunksize=1)
-    return Trials(*(np.array(column) for column in zip(*rows, strict=True)), ratios)
+    columns: list[Any] = [np.array(column) for column in zip(*rows, strict=True)]
+    exact, missing, extra, guaranteed, ratio, rings = columns
+    return Trials(exact, missing, extra, guaranteed, ratio, rings, ratios)
 
 
 def _tried(name: tuple[str, int], ratios: tuple[float, ...], starts: int) -> list[Any]:
