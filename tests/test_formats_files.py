@@ -16,7 +16,7 @@ from crustline.formats import FORMATS, read, write
 from crustline.formats.crs import normalize_crs
 from crustline.points import Points
 
-WRITTEN = [key for key, each in FORMATS.items() if each.writes]
+WRITTEN = [key for key, each in FORMATS.items() if each.write_curves]
 
 
 def curves():
@@ -34,7 +34,7 @@ class Standard:
         pass
 
 
-@pytest.mark.parametrize("format", [key for key in WRITTEN if FORMATS[key].reads])
+@pytest.mark.parametrize("format", [key for key in WRITTEN if FORMATS[key].read])
 def test_standard_output_to_standard_input(monkeypatch, format):
     stdout = Standard()
     monkeypatch.setattr(sys, "stdout", stdout)

@@ -9,7 +9,7 @@ from crustline.errors import FormatError, InputError
 from crustline.formats import FORMATS, read
 from crustline.points import Points
 
-READABLE = [key for key, each in FORMATS.items() if each.reads]
+READABLE = [key for key, each in FORMATS.items() if each.read]
 WITH_COLUMNS = {"csv", "tsv", "npz", "geojson"}
 WITH_CRS = {"npz", "geojson", "wkt"}
 

@@ -106,6 +106,17 @@ class Certificate(Record):
         """Rows of `points` that break the guarantee, sorted."""
         return np.flatnonzero(self.point_codes)
 
+    def weak_places(self) -> Points:
+        """Return the points that break the guarantee, with their row and the reason beside them.
+
+        What the points carry is kept; columns called row or reason become input_row, input_reason.
+        """
+        rows = self.weak_points
+        weak = self.points.select(rows)
+        found = {"row": rows, "reason": self.point_reason[rows]}
+        kept = {(f"input_{name}" if name in found else name): v for name, v in weak.columns.items()}
+        return weak.replace(columns=found | kept)
+
     def summary(self) -> str:
         """Return the certificate in words: what is proven, what is estimated, what breaks it."""
         lines = [f"{'Guaranteed' if self.guaranteed else 'Not guaranteed'}: {self._finding()}"]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from os import PathLike
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -73,6 +73,29 @@ class Polygon(Record):
 
     def __repr__(self) -> str:
         return f"<Polygon: {len(self.shell)} points, {len(self.holes)} holes>"
+
+
+@dataclass(frozen=True, eq=False)
+class Feature(Record):
+    """What a file or a picture holds of curves as one thing: see `Curves.features`.
+
+    Attributes
+    ----------
+    number : int or None
+        The features of curves are counted from 0; None for the isolated points.
+    kind : {"polygon", "line", "points"}
+        Whether `parts` are the rings of a polygon, one ring or polyline, or isolated points.
+    parts : tuple of ndarray of int64
+        Rows of the points. A polygon's first part is its outside, counter-clockwise; the others are
+        its holes, clockwise.
+    closed : bool
+        Whether the last row of each part is joined to its first.
+    """
+
+    number: int | None
+    kind: Literal["polygon", "line", "points"]
+    parts: tuple[IntArray, ...]
+    closed: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,13 +215,44 @@ class Curves(Record, Sequence[Curve]):
             return []
         return _nest([self._curve(number).indices for number in rings], self.points.xy)
 
+    def features(self, polygons: bool = False) -> Iterator[Feature]:
+        """Yield polygons, if they are asked for, then the other curves, then the isolated points.
+
+        Parameters
+        ----------
+        polygons : bool, default False
+            Whether rings are joined to polygons with holes; else each is a line of its own.
+
+        Yields
+        ------
+        feature : Feature
+            Each curve is in one of them, and so is each isolated point.
+
+        Examples
+        --------
+        >>> curves = trace([(0, 0), (1, 0), (0, 1), (5, 5)], [(0, 1), (1, 2), (0, 2)])
+        >>> [(each.number, each.kind, each.closed) for each in curves.features(polygons=True)]
+        [(0, 'polygon', True), (None, 'points', False)]
+        """
+        number = 0
+        for polygon in self.polygons() if polygons else []:
+            holes = (hole[::-1] for hole in polygon.holes)
+            yield Feature(number, "polygon", (polygon.shell, *holes), True)
+            number += 1
+        for curve in self:
+            if not (polygons and curve.closed):
+                yield Feature(number, "line", (curve.indices,), curve.closed)
+                number += 1
+        if len(self.isolated):
+            yield Feature(None, "points", (self.isolated,), False)
+
     def write(
-        self, path: str | PathLike[str], *, format: str | None = None, polygons: bool = False
+        self, path: str | PathLike[str], *, format: str | None = None, **options: Any
     ) -> None:
         """Write the curves to a file: see `crustline.write`, which says what each format holds."""
         from crustline.formats import write
 
-        write(self, path, format=format, polygons=polygons)
+        write(self, path, format=format, **options)
 
     def plot(self, ax: Axes | None = None, **options: Any) -> Axes:
         """Draw the curves with matplotlib; see `crustline.plot.plot_curves`."""
@@ -208,9 +262,9 @@ class Curves(Record, Sequence[Curve]):
 
     def _repr_svg_(self) -> str:
         """Return the picture that notebooks show."""
-        from crustline.formats.svg import write_svg
+        from crustline.formats.svg import picture_of_curves
 
-        return write_svg(self).decode()
+        return picture_of_curves(self)
 
     def __repr__(self) -> str:
         rings = int(np.count_nonzero(self.closed))

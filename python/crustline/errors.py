@@ -15,6 +15,10 @@ class FormatError(CrustlineError, ValueError):
     """A file that cannot be read or written; names the file and, where there is one, the line."""
 
 
+class FormatWarning(UserWarning):
+    """What was read although it is doubtful; names the file and the option that says otherwise."""
+
+
 class MissingExtraError(CrustlineError, ImportError):
     """A feature whose optional packages are not installed; names the extra to install."""
 

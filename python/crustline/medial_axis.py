@@ -256,7 +256,9 @@ class MedialAxis(Record):
         box : array_like of float, shape (4,), optional
             See `curves`. The part beyond is cut off: unbounded edges end there.
         """
-        self.curves(box).write(path, format=format)
+        from crustline.formats import write
+
+        write(self.curves(box), path, format=format)
 
     def _box(self) -> FloatArray:
         if not len(self.points):

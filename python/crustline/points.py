@@ -194,9 +194,9 @@ class Points:
         0.0,0.0,7.0,a
         3.0,4.0,8.0,b
         """
-        from crustline.formats import write_points
+        from crustline.formats import write
 
-        write_points(self, path, format=format)
+        write(self, path, format=format)
 
     def _repr_html_(self) -> str:
         """Return the table that notebooks show: the first and the last rows."""

@@ -57,9 +57,9 @@ def _advise(error: click.ClickException) -> str:
 
 def _show_version(context: click.Context, option: click.Parameter, value: bool) -> None:
     if value and not context.resilient_parsing:
-        from importlib.metadata import version
+        from crustline import __version__
 
-        click.echo(f"crustline {version('crustline')}")
+        click.echo(f"crustline {__version__}")
         context.exit()
 
 

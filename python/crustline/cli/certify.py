@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
 
 import click
 
 from crustline.cli.method import Method, method_options
-from crustline.cli.output import POINTS, Output, output_options
+from crustline.cli.output import Output, output_options
 from crustline.cli.reconstruct import select_edges
 from crustline.cli.source import Source, source_options
-from crustline.points import Points
-
-if TYPE_CHECKING:
-    from crustline.certify import Certificate
 
 
 @click.command()
 @source_options
-@output_options(POINTS, "write_points")
+@output_options("write_points")
 @click.option("--strict", is_flag=True,
               help="Exit with code 1 if the curves are not guaranteed.")  # fmt: skip
 @method_options
@@ -33,12 +28,12 @@ def certify(source: Source, output: Output, strict: bool, method: Method) -> Non
     \b
         crustline certify goose.csv -o more_samples_here.csv
     """
-    points, delaunay, edges = select_edges(source, method, output.quiet)
+    _, delaunay, edges = select_edges(source, method, output.quiet)
 
     from crustline.certify import certify
 
     certificate = certify(delaunay, edges)
-    output.write(_weak(points, certificate).write)
+    output.write(certificate)
     if output.as_json:
         about = {"input": source.name, "method": method.name, "outputs": list(output.files)}
         text = json.dumps(about | certificate.to_dict(), allow_nan=False)
@@ -48,12 +43,3 @@ def certify(source: Source, output: Output, strict: bool, method: Method) -> Non
         click.echo(text, err="-" in output.files)
     if strict and not certificate.guaranteed:
         raise click.exceptions.Exit(1)
-
-
-def _weak(points: Points, certificate: Certificate) -> Points:
-    """Return the points that break the guarantee, with the row and the reason beside them."""
-    rows = certificate.weak_points
-    weak = points.select(rows)
-    found = {"row": rows, "reason": certificate.point_reason[rows]}
-    taken = {(f"input_{name}" if name in found else name): v for name, v in weak.columns.items()}
-    return Points(weak, z=weak.z, columns=found | taken, crs=weak.crs, names=weak.names)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
 import numpy as np
 
 from crustline.cli.method import Method, method_options
-from crustline.cli.output import CURVES, Output, counted, output_options
+from crustline.cli.output import Output, counted, output_options
 from crustline.cli.reconstruct import select_edges
 from crustline.cli.source import Source, source_options
 from crustline.errors import InputError
@@ -21,7 +20,7 @@ if TYPE_CHECKING:
 
 @click.command("medial-axis")
 @source_options
-@output_options(CURVES)
+@output_options("write_curves")
 @click.option("--inner", "part", flag_value="inner", help="Only what is inside of the rings.")
 @click.option("--outer", "part", flag_value="outer", help="Only what is outside of the rings.")
 @click.option(
@@ -60,7 +59,7 @@ def medial_axis(
     from crustline.medial_axis import medial_axis
 
     axis = _part(medial_axis(points, edges).prune(at_least), part)
-    output.write(partial(axis.write, box=corners))
+    output.write(axis.curves(corners))
     inner = int(np.count_nonzero(axis.inner))
     counts = {
         "inner_edges": inner,

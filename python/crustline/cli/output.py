@@ -1,21 +1,22 @@
-"""What a command writes and says: -o, --output-format, --json, -q."""
+"""What a command writes and says: -o, --output-format, --json, -q, and what formats ask."""
 
 from __future__ import annotations
 
 import functools
 import json
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import click
 
 from crustline.cli.method import Command
+from crustline.cli.source import format_options
 from crustline.errors import InputError
-
-CURVES = ".geojson, .csv, .tsv, .wkt, .svg or .npz"
-POINTS = ".csv, .tsv, .xyz, .geojson, .wkt, .npy, .npz or .svg"
+from crustline.formats.catalog import FORMATS, able, format_of_target, options_for, suffixes_for
+from crustline.formats.format import Format
+from crustline.formats.target import Target, check_writable
 
 
 @dataclass(frozen=True)
@@ -25,12 +26,18 @@ class Output:
     files: dict[str, str]
     as_json: bool
     quiet: bool
+    task: str = ""
+    settings: dict[str, Any] = field(default_factory=dict)
     started: float = field(default_factory=time.perf_counter)
 
-    def write(self, write: Callable[..., None]) -> None:
-        """Call `write(file, format=format)` for each file."""
+    def write(self, thing: Any) -> None:
+        """Write a thing to each file, with those of the settings that its format knows."""
+        from crustline.formats import write
+
         for file, form in self.files.items():
-            write(file, format=form)
+            known = {option.name for option in FORMATS[form].options_of(self.task)}
+            settings = {name: value for name, value in self.settings.items() if name in known}
+            write(thing, file, format=form, **settings)
 
     def report(self, sentence: str, summary: dict[str, Any]) -> None:
         """Say in a line, or as JSON, what was done; both end with the files and the seconds."""
@@ -52,25 +59,30 @@ def _files_option(what: str, *, required: bool) -> Callable[[Command], Command]:
     )  # fmt: skip
 
 
-def output_options(
-    suffixes: str, task: str = "write", *, required: bool = False
-) -> Callable[[Command], Command]:
+def output_options(task: str, *, required: bool = False) -> Callable[[Command], Command]:
     """Give a command the options that say where its result goes; it takes `output: Output`.
 
-    `task` is what is written, as for `formats.output_format`: "write" is curves, "write_points"
-    points.
+    `task` is what writes it: "write_points", "write_curves" or "write_splines".
     """
+    suffixes = suffixes_for(task)
 
     def decorate(command: Command) -> Command:
-        @_files_option(f"A file to write: {suffixes}; - is standard output.", required=required)
+        @_files_option(f"A file to write: {_one_of(suffixes)}; - is stdout.", required=required)
         @click.option(
             "--output-format", metavar="F",
             help="The format of outputs whose name does not say it, such as -.",
         )  # fmt: skip
+        @format_options(task)
         @summary_options
         @functools.wraps(command)
-        def run(files: tuple[str, ...], output_format: str | None, **rest: Any) -> None:
-            _pass_output(command, rest, _formats(files, output_format, task))
+        def run(
+            files: tuple[str, ...],
+            output_format: str | None,
+            given: dict[str, Any],
+            **rest: Any,
+        ) -> None:
+            formats = _formats(files, output_format, task)
+            _pass_output(command, rest, formats, task, _checked(given, formats, task))
 
         return run
 
@@ -110,15 +122,32 @@ def summary_options(command: Command) -> Command:
     )(command)  # fmt: skip
 
 
-def _pass_output(command: Command, options: dict[str, Any], files: dict[str, str]) -> None:
+def _pass_output(
+    command: Command,
+    options: dict[str, Any],
+    files: dict[str, str],
+    task: str = "",
+    settings: dict[str, Any] | None = None,
+) -> None:
     as_json, quiet = options.pop("as_json"), options.pop("quiet")
-    command(output=Output(files, as_json, quiet), **options)
+    command(output=Output(files, as_json, quiet, task, settings or {}), **options)
+
+
+def _checked(settings: dict[str, Any], formats: dict[str, str], task: str) -> dict[str, Any]:
+    """Refuse, before any work, a setting that is ill or that no output takes."""
+    takers = {option.name: (option, each) for option, each in options_for(task).items()}
+    checked = {}
+    for name, value in settings.items():
+        option, formats_of_it = takers[name]
+        names = [each.name for each in formats_of_it]
+        if not set(names) & set(formats.values()):
+            raise InputError(f"{option.spelling} is for {', '.join(names)}: add such an output")
+        checked[name] = option.check(value)
+    return checked
 
 
 def check_files(files: tuple[str, ...]) -> None:
     """Refuse files that cannot be written, before any work is done for them."""
-    from crustline.formats.file import check_writable
-
     for file in files:
         check_writable(file)
         if files.count(file) > 1:
@@ -126,18 +155,23 @@ def check_files(files: tuple[str, ...]) -> None:
 
 
 def _formats(files: tuple[str, ...], output_format: str | None, task: str) -> dict[str, str]:
-    from crustline.formats import format_of
-    from crustline.formats import output_format as find_format
-
     check_files(files)
     if output_format is not None:
-        find_format("-", output_format, task)
+        format_of_target(Target("-"), output_format, task)
     if output_format is None and "-" in files:
-        raise InputError("the output - has no name that says its format: add --output-format")
-    return {file: format_of(file, task) or find_format(file, output_format, task) for file in files}
+        if len(able(task)) > 1:
+            raise InputError("the output - has no name that says its format: add --output-format")
+        output_format = able(task)[0].name
+    return {file: _format(Target(file), output_format, task).name for file in files}
 
 
-def _one_of(words: tuple[str, ...]) -> str:
+def _format(target: Target, output_format: str | None, task: str) -> Format:
+    """Return the format of a target's name, and of the option only where the name says none."""
+    named = target.given != "-" and target.suffix in suffixes_for(task)
+    return format_of_target(target, None if named else output_format, task)
+
+
+def _one_of(words: Sequence[str]) -> str:
     return " or ".join(filter(None, (", ".join(words[:-1]), words[-1])))
 
 

@@ -7,7 +7,7 @@ from functools import partial
 import click
 
 from crustline.cli.method import Method, method_options
-from crustline.cli.output import Output, counted, picture_options
+from crustline.cli.output import Output, counted, output_options, picture_options
 from crustline.cli.reconstruct import select_edges
 from crustline.cli.source import Source, source_options
 from crustline.errors import InputError
@@ -52,20 +52,13 @@ def plot(source: Source, output: Output, show: str, method: Method) -> None:
 
 @click.command()
 @source_options
-@picture_options(".svg", pipe=True)
-@click.option(
-    "--tolerance", type=float, metavar="T",
-    help="As few Bézier pieces as stay within T of the splines, in the unit of the points. "
-    "[default: the splines themselves]",
-)  # fmt: skip
+@output_options("write_splines", required=True)
 @click.option(
     "--corner-angle", type=float, default=60.0, show_default=True, metavar="DEGREES",
     help="A point at which the curve turns by this or more is a corner.",
 )  # fmt: skip
 @method_options
-def smooth(
-    source: Source, output: Output, tolerance: float | None, corner_angle: float, method: Method
-) -> None:
+def smooth(source: Source, output: Output, corner_angle: float, method: Method) -> None:
     """Draw smooth curves through points.
 
     INPUT is a file of points; - is standard input. Writes an SVG of
@@ -75,8 +68,6 @@ def smooth(
     \b
         crustline smooth goose.csv -o goose.svg --tolerance 0.1
     """
-    if tolerance is not None and not 0 < tolerance < float("inf"):
-        raise InputError(f"--tolerance is {tolerance}: give a length above 0")
     if not 0 < corner_angle <= 180:
         raise InputError(f"--corner-angle is {corner_angle}: give degrees in (0, 180]")
     points, _, edges = select_edges(source, method, output.quiet)
@@ -85,10 +76,10 @@ def smooth(
     from crustline.smooth import smooth
 
     splines = smooth(trace(points, edges), corner_angle=corner_angle)
+    tolerance = output.settings.get("tolerance")
     pieces = sum(map(len, splines.beziers(tolerance)))
     corners = sum(len(spline.corners) for spline in splines)
-    for file in output.files:
-        splines.write(file, tolerance=tolerance)
+    output.write(splines)
     counts = {"curves": len(splines), "pieces": pieces, "corners": corners}
     words = ("curve", "piece", "corner")
     output.report(

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from crustline.cli.method import Method, method_options
-from crustline.cli.output import CURVES, Output, counted, output_options
+from crustline.cli.output import Output, counted, output_options
 from crustline.cli.progress import progress_bar
 from crustline.cli.source import Source, source_options
 
@@ -21,11 +20,9 @@ if TYPE_CHECKING:
 
 @click.command()
 @source_options
-@output_options(CURVES)
-@click.option("--polygons", is_flag=True,
-              help="Write rings as polygons with holes, where the format knows them.")  # fmt: skip
+@output_options("write_curves")
 @method_options
-def reconstruct(source: Source, output: Output, polygons: bool, method: Method) -> None:
+def reconstruct(source: Source, output: Output, method: Method) -> None:
     """Find the curves that points were sampled from.
 
     INPUT is a file of points; - is standard input. Writes rings and lines, each in order, with the
@@ -37,10 +34,9 @@ def reconstruct(source: Source, output: Output, polygons: bool, method: Method) 
     points, delaunay, edges = select_edges(source, method, output.quiet)
 
     from crustline.curves import trace
-    from crustline.formats import write
 
     curves = trace(points, edges)
-    output.write(partial(write, curves, polygons=polygons))
+    output.write(curves)
     counts = _count(curves, delaunay)
     output.report(
         f"{source.name}: {_in_words(counts)}",

@@ -9,7 +9,7 @@ import click
 import numpy as np
 
 from crustline.cli.method import Method, method_options
-from crustline.cli.output import POINTS, Output, counted, output_options
+from crustline.cli.output import Output, counted, output_options
 from crustline.cli.reconstruct import select_edges
 from crustline.cli.source import Source, source_options
 from crustline.errors import InputError
@@ -38,7 +38,7 @@ SHAPES = ("circle", "ellipse", "stadium", "trefoil", "blob", "superformula")
     help="Where each loop starts, random steps and --shuffle; the same for the same N.",
 )  # fmt: skip
 @click.option("--shuffle", is_flag=True, help="Write the points in random order.")
-@output_options(POINTS, "write_points", required=True)
+@output_options("write_points", required=True)
 def sample(
     shape: str,
     r: float | None,
@@ -72,7 +72,7 @@ def sample(
     from crustline.points import Points
 
     points = Points(taken.points[rows], columns={"t": taken.t[rows]})
-    output.write(points.write)
+    output.write(points)
     output.report(
         f"{shape}: {counted(len(points), 'point')}",
         {"shape": shape, "r": r, "error": error, "mode": mode, "points": len(points)},
@@ -161,7 +161,7 @@ def _check_names(
     "-r", type=float, required=True, metavar="R",
     help="How far from a kept point, in parts of the local feature size; 0 < R ≤ 1.",
 )  # fmt: skip
-@output_options(POINTS, "write_points")
+@output_options("write_points")
 @method_options
 def thin(source: Source, r: float, output: Output, method: Method) -> None:
     """Drop the points that the curves do not need.
@@ -180,7 +180,7 @@ def thin(source: Source, r: float, output: Output, method: Method) -> None:
     from crustline.thinning import thin
 
     kept = points.select(thin(points, edges, r))
-    output.write(kept.write)
+    output.write(kept)
     output.report(
         f"{source.name}: {counted(len(kept), 'point')} of {len(points):,} kept",
         {

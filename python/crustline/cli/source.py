@@ -1,15 +1,18 @@
-"""The points that a command works on: INPUT, --columns, --input-format, --crs, --threads."""
+"""The points that a command works on: INPUT, --input-format, --crs, and what formats ask."""
 
 from __future__ import annotations
 
 import functools
 import os
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from crustline.cli.method import Command
+from crustline.formats.catalog import able, options_for
+from crustline.formats.format import Format, Option
 
 if TYPE_CHECKING:
     from crustline.points import Points
@@ -20,40 +23,69 @@ class Source:
     """A file of points, and what was said about it."""
 
     name: str
-    columns: str | None
     format: str | None
     crs: str | None
+    settings: dict[str, Any]
 
     def read(self) -> Points:
         """Return its points."""
         from crustline.formats import read
 
-        columns = self.columns
-        pair = None if columns is None else [name.strip() for name in columns.split(",")]
-        return read(self.name, columns=pair, format=self.format, crs=self.crs)
+        return read(self.name, format=self.format, crs=self.crs, **self.settings)
 
 
 def source_options(command: Command) -> Command:
     """Give a command the argument INPUT and its options; it takes `source: Source`."""
 
     @click.argument("name", metavar="INPUT")
-    @click.option(
-        "--columns", metavar="X,Y",
-        help="The columns of x and y (and z): names, or positions from 0.",
-    )  # fmt: skip
-    @click.option(
-        "--input-format", metavar="F",
-        help="csv, tsv, xyz, npy, npz, geojson or wkt, whatever the name says.",
-    )  # fmt: skip
+    @click.option("--input-format", metavar="F", help=f"{_names()}, whatever the name says.")
     @click.option("--crs", metavar="C", help="The CRS of the input, such as EPSG:4326.")
+    @format_options("read")
     @threads_option
     @functools.wraps(command)
     def run(
-        name: str, columns: str | None, input_format: str | None, crs: str | None, **rest: Any
+        name: str,
+        input_format: str | None,
+        crs: str | None,
+        given: dict[str, Any],
+        **rest: Any,
     ) -> None:
-        command(source=Source(name, columns, input_format, crs), **rest)
+        command(source=Source(name, input_format, crs, given), **rest)
 
     return run
+
+
+def _names() -> str:
+    names = [each.name for each in able("read")]
+    return f"{', '.join(names[:-1])} or {names[-1]}"
+
+
+def format_options(task: str) -> Callable[[Command], Command]:
+    """Give a command the options that formats have for a task; it takes `given`."""
+    found = options_for(task)
+
+    def decorate(command: Command) -> Command:
+        @functools.wraps(command)
+        def run(**options: Any) -> None:
+            settings = {each.name: options.pop(each.name) for each in found}
+            settings = {name: value for name, value in settings.items() if value is not None}
+            command(given=settings, **options)
+
+        decorated: Command = run
+        for option, formats in reversed(found.items()):
+            decorated = _click_option(option, formats)(decorated)
+        return decorated
+
+    return decorate
+
+
+def _click_option(option: Option, formats: list[Format]) -> Callable[[Command], Command]:
+    help = f"{option.help} [{', '.join(each.name for each in formats)}]"
+    if option.metavar:
+        return click.option(option.spelling, option.name, metavar=option.metavar, help=help)
+    return click.option(
+        option.spelling, option.name, flag_value=option.constant, default=None, help=help
+    )
 
 
 def _set_threads(context: click.Context, option: click.Parameter, value: int | None) -> None:

@@ -10,6 +10,7 @@ import io
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
@@ -25,7 +26,10 @@ from crustline.formats.attributes import (
     find_pair,
     texts,
 )
-from crustline.formats.file import as_text
+from crustline.formats.format import Format
+from crustline.formats.options import COLUMNS
+from crustline.formats.source import Source
+from crustline.formats.target import Target
 from crustline.points import Points
 
 if TYPE_CHECKING:
@@ -74,19 +78,15 @@ class _Table:
         return FormatError(f"{self.source}, line {line}{place}: {fault}")
 
 
-def read_csv(content: bytes, source: str, columns: Sequence[str | int] | None) -> Points:
+def read(source: Source, *, columns: Sequence[str | int] | None = None) -> Points:
     """Return the points of columns of text; the separator is sniffed."""
-    table = _survey(as_text(content, source), source, columns)
+    table = _survey(source.text(), source.name, columns)
     values = _read_numbers(table) or _read_cells(table)
     names = (table.names[table.positions[0]], table.names[table.positions[1]])
     coordinates = np.column_stack([values.pop(position) for position in table.positions[:2]])
     z = values.pop(table.positions[2]) if len(table.positions) == 3 else None
     others = {table.names[k]: values[k] for k in sorted(values)}
     return Points(coordinates, z=z, columns=others, names=names)
-
-
-read_tsv = read_csv
-read_xyz = read_csv
 
 
 # The survey: comments, separator, header, columns
@@ -317,8 +317,8 @@ def _as_values(table: _Table, cells: Column) -> Column:
 # Writing
 
 
-def write_csv(curves: Curves, *, polygons: bool = False, separator: str = ",") -> bytes:
-    """Return the curves as CSV: curve, order, row, x, y, z, closed, then the other columns."""
+def _write_curves(curves: Curves, target: Target, separator: str) -> None:
+    """Write curve, order, row, x, y, z, closed, then the other columns."""
     rows = np.concatenate([curves.indices, curves.isolated])
     columns = _result_columns(curves)
     attributes = attributes_of(curves, reserved=columns)
@@ -327,40 +327,30 @@ def write_csv(curves: Curves, *, polygons: bool = False, separator: str = ",") -
     else:
         columns["z"] = attributes.z[rows]
     columns |= {name: values[rows] for name, values in attributes.columns.items()}
-    return _table(columns, separator)
+    target.write(_table(columns, separator))
 
 
-def write_tsv(curves: Curves, *, polygons: bool = False) -> bytes:
-    """Return the curves as CSV with tabs."""
-    return write_csv(curves, polygons=polygons, separator="\t")
-
-
-def write_points_csv(points: Points, *, separator: str = ",") -> bytes:
-    """Return points as CSV: the coordinates by the names that they had, z, the other columns."""
+def _write_points(points: Points, target: Target, separator: str) -> None:
+    """Write the coordinates by the names that they had, z, the other columns."""
     columns: dict[str, Column] = dict(zip(points.names, np.asarray(points).T, strict=True))
     if points.z is not None:
         columns["z"] = points.z
     columns |= attributes_of_points(points, reserved=columns).columns
-    return _table(columns, separator)
+    target.write(_table(columns, separator))
 
 
-def write_points_tsv(points: Points) -> bytes:
-    """Return points as CSV with tabs."""
-    return write_points_csv(points, separator="\t")
-
-
-def write_points_xyz(points: Points) -> bytes:
-    """Return points as lines of x, y and z if there is one; XYZ has no other columns."""
+def _write_xyz(points: Points, target: Target) -> None:
+    """Write lines of x, y and z if there is one; XYZ has no other columns."""
     heights = [] if points.z is None else [points.z]
     cells = [texts(values) for values in (*np.asarray(points).T, *heights)]
-    return "".join(f"{' '.join(row)}\n" for row in zip(*cells, strict=True)).encode()
+    target.write("".join(f"{' '.join(row)}\n" for row in zip(*cells, strict=True)))
 
 
-def _table(columns: dict[str, Column], separator: str) -> bytes:
+def _table(columns: dict[str, Column], separator: str) -> str:
     header = separator.join(_cells(np.array(list(columns)), separator))
     cells = [_cells(values, separator) for values in columns.values()]
     lines = [header, *map(separator.join, zip(*cells, strict=True)), ""]
-    return "\n".join(lines).encode()
+    return "\n".join(lines)
 
 
 def _result_columns(curves: Curves) -> dict[str, Column]:
@@ -387,3 +377,31 @@ def _cells(values: Column, separator: str) -> list[str]:
         return cells
     special = re.compile(f'[{separator}"\r\n]|^[\\s#]')
     return [f'"{c.replace(chr(34), 2 * chr(34))}"' if special.search(c) else c for c in cells]
+
+
+CSV = Format(
+    name="csv",
+    title="CSV",
+    suffixes=(".csv",),
+    read=read,
+    write_points=partial(_write_points, separator=","),
+    write_curves=partial(_write_curves, separator=","),
+    options=(COLUMNS,),
+)
+TSV = Format(
+    name="tsv",
+    title="TSV",
+    suffixes=(".tsv", ".tab"),
+    read=read,
+    write_points=partial(_write_points, separator="\t"),
+    write_curves=partial(_write_curves, separator="\t"),
+    options=(COLUMNS,),
+)
+XYZ = Format(
+    name="xyz",
+    title="XYZ",
+    suffixes=(".xyz", ".txt", ".dat", ".asc"),
+    read=read,
+    write_points=_write_xyz,
+    options=(COLUMNS,),
+)

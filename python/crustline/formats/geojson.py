@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import chain, repeat
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -15,7 +15,10 @@ from crustline.arrays import IntArray
 from crustline.errors import FormatError, InputError
 from crustline.formats.attributes import attributes_of, coordinates_with_height
 from crustline.formats.crs import geojson_member
-from crustline.formats.file import as_text
+from crustline.formats.format import Format
+from crustline.formats.options import POLYGONS
+from crustline.formats.source import Source
+from crustline.formats.target import Target
 from crustline.points import Points
 
 if TYPE_CHECKING:
@@ -31,6 +34,7 @@ _DEPTHS = {
     "MultiPolygon": 3,
 }
 _LINES = ("LineString", "MultiLineString", "Polygon", "MultiPolygon")
+_KINDS = {"polygon": "Polygon", "line": "LineString", "points": "MultiPoint"}
 _RESERVED = ("curve", "closed", "rows", "id")
 
 
@@ -44,20 +48,18 @@ class _Vertices:
     properties: list[dict[str, Any]] = field(default_factory=list)
 
 
-def read_geojson(content: bytes, source: str, columns: Sequence[str | int] | None) -> Points:
+def read(source: Source) -> Points:
     """Return the vertices of all geometries, with the properties of their features as columns."""
-    if columns is not None:
-        raise InputError(f"{source} is GeoJSON, which has no columns to choose: leave columns away")
-    document = _parse(as_text(content, source), source)
-    vertices = _Vertices(source)
-    for number, feature in enumerate(_features(document, source)):
+    document = _parse(source.text(), source.name)
+    vertices = _Vertices(source.name)
+    for number, feature in enumerate(_features(document, source.name)):
         _add_feature(vertices, feature, number)
     coordinates = _as_array(vertices)
     z = coordinates[:, 2] if coordinates.shape[1] == 3 else None
     try:
         return Points(coordinates[:, :2], z=z, columns=_columns(vertices), crs=_crs(document))
     except InputError as error:
-        raise FormatError(f"{source}, {error}") from None
+        raise FormatError(f"{source.name}, {error}") from None
 
 
 def _parse(text: str, source: str) -> dict[str, Any]:
@@ -227,14 +229,14 @@ def _crs(document: dict[str, Any]) -> str | None:
 # Writing
 
 
-def write_geojson(curves: Curves, *, polygons: bool = False) -> bytes:
-    """Return the curves as a FeatureCollection, a line of text for each feature."""
-    features = _Writer(curves).features(polygons)
-    return _collection(attributes_of(curves).crs, map(_dump, features))
+def write_curves(curves: Curves, target: Target, *, polygons: bool = False) -> None:
+    """Write the curves as a FeatureCollection, a line of text for each feature."""
+    features = map(_dump, _features_of(curves, polygons))
+    target.write(_collection(attributes_of(curves).crs, features))
 
 
-def write_points_geojson(points: Points) -> bytes:
-    """Return points as a FeatureCollection of Points, the other columns as properties."""
+def write_points(points: Points, target: Target) -> None:
+    """Write points as a FeatureCollection of Points, the other columns as properties."""
     positions = np.asarray(points)
     if points.z is not None:
         positions = np.column_stack([positions, points.z])
@@ -250,50 +252,32 @@ def write_points_geojson(points: Points) -> bytes:
         )
         for position, row in zip(positions.tolist(), rows, strict=False)
     )
-    return _collection(points.crs, features)
+    target.write(_collection(points.crs, features))
 
 
-def _collection(name: str | None, features: Iterable[str]) -> bytes:
+def _collection(name: str | None, features: Iterable[str]) -> str:
     member = geojson_member(name)
     crs = "" if member is None else f'"crs":{_dump(member)},'
     body = ",\n".join(features)
-    return f'{{"type":"FeatureCollection",{crs}"features":[\n{body}\n]}}\n'.encode()
+    return f'{{"type":"FeatureCollection",{crs}"features":[\n{body}\n]}}\n'
 
 
-class _Writer:
-    """Curves as features: positions with heights, and the other columns vertex by vertex."""
+def _features_of(curves: Curves, polygons: bool) -> Iterator[dict[str, Any]]:
+    """Yield features: positions with heights, and the other columns vertex by vertex."""
+    columns = attributes_of(curves, reserved=_RESERVED).columns
 
-    def __init__(self, curves: Curves) -> None:
-        self.curves = curves
-        self.columns = attributes_of(curves, reserved=_RESERVED).columns
-
-    def features(self, polygons: bool) -> Iterator[dict[str, Any]]:
-        number = 0
-        shapes = self.curves.polygons() if polygons else []
-        for number, polygon in enumerate(shapes):
-            # The right-hand rule: the outside counter-clockwise, holes clockwise.
-            rings = [polygon.shell, *(hole[::-1] for hole in polygon.holes)]
-            yield self._feature(number, True, "Polygon", rings)
-        rest = [curve for curve in self.curves if not (polygons and curve.closed)]
-        for number, curve in enumerate(rest, len(shapes)):
-            yield self._feature(number, curve.closed, "LineString", [curve.indices])
-        if len(self.curves.isolated):
-            yield self._feature(None, False, "MultiPoint", [self.curves.isolated])
-
-    def _feature(
-        self, number: int | None, closed: bool, kind: str, parts: list[IntArray]
-    ) -> dict[str, Any]:
-        lines = [self._line(part, closed) for part in parts]
-        rows = np.concatenate(parts)
-        properties = {"curve": number, "closed": closed, "rows": rows.tolist()}
-        properties |= {name: _as_json(values[rows]) for name, values in self.columns.items()}
-        coordinates = lines if kind == "Polygon" else lines[0]
-        geometry = {"type": kind, "coordinates": coordinates}
-        return {"type": "Feature", "properties": properties, "geometry": geometry}
-
-    def _line(self, rows: IntArray, closed: bool) -> list[list[float]]:
-        positions: list[list[float]] = coordinates_with_height(self.curves, rows).tolist()
+    def line(rows: IntArray, closed: bool) -> list[list[float]]:
+        positions: list[list[float]] = coordinates_with_height(curves, rows).tolist()
         return positions + positions[:1] if closed else positions
+
+    for feature in curves.features(polygons):
+        lines = [line(part, feature.closed) for part in feature.parts]
+        rows = np.concatenate(feature.parts)
+        properties = {"curve": feature.number, "closed": feature.closed, "rows": rows.tolist()}
+        properties |= {name: _as_json(values[rows]) for name, values in columns.items()}
+        coordinates = lines if feature.kind == "polygon" else lines[0]
+        geometry = {"type": _KINDS[feature.kind], "coordinates": coordinates}
+        yield {"type": "Feature", "properties": properties, "geometry": geometry}
 
 
 def _as_json(values: npt.NDArray[Any]) -> list[Any]:
@@ -304,3 +288,19 @@ def _as_json(values: npt.NDArray[Any]) -> list[Any]:
 
 def _dump(value: Any) -> str:
     return json.dumps(value, allow_nan=False, ensure_ascii=False, separators=(",", ":"))
+
+
+def _is_geojson(head: bytes) -> bool:
+    return head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{")
+
+
+GEOJSON = Format(
+    name="geojson",
+    title="GeoJSON",
+    suffixes=(".geojson", ".json"),
+    sniff=_is_geojson,
+    read=read,
+    write_points=write_points,
+    write_curves=write_curves,
+    options=(POLYGONS,),
+)

@@ -16,6 +16,10 @@ from crustline.formats.attributes import (
     find_pair,
     quote_all,
 )
+from crustline.formats.format import Format
+from crustline.formats.options import COLUMNS
+from crustline.formats.source import Source
+from crustline.formats.target import Target
 from crustline.points import Points
 
 if TYPE_CHECKING:
@@ -26,45 +30,47 @@ _PREFIX = "columns/"
 _RESULT = ("indices", "offsets", "closed", "isolated")
 
 
-def read_npy(content: bytes, source: str, columns: Sequence[str | int] | None) -> Points:
+def read_npy(source: Source, *, columns: Sequence[str | int] | None = None) -> Points:
     """Return the points of one array of shape (n, 2), or (n, 3) with heights."""
-    return _from_table(_load(content, source), source, columns)
+    return _from_table(_load(source.content(), source.name), source.name, columns)
 
 
-def read_npz(content: bytes, source: str, columns: Sequence[str | int] | None) -> Points:
+def read_npz(source: Source, *, columns: Sequence[str | int] | None = None) -> Points:
     """Return the points of an archive: array points, or x and y, with z, crs and other columns."""
-    archive = _load(content, source)
+    archive = _load(source.content(), source.name)
     if isinstance(archive, np.ndarray):
-        raise FormatError(f"{source} is an NPY file, not an NPZ archive: choose the format npy")
-    arrays = {name: _member(archive, name, source) for name in archive.files}
+        raise FormatError(
+            f"{source.name} is an NPY file, not an NPZ archive: choose the format npy"
+        )
+    arrays = {name: _member(archive, name, source.name) for name in archive.files}
     crs = arrays.pop("crs", None)
     names = arrays.pop("names", None)
     if "points" in arrays and columns is None:
         if set(_RESULT) <= arrays.keys():  # a result of ours: a ring of n points is no column
             arrays = {name: array for name, array in arrays.items() if name not in _RESULT}
-        points = _with_columns(arrays, names, source)
+        points = _with_columns(arrays, names, source.name)
     else:
-        points = _from_arrays(arrays, source, columns)
+        points = _from_arrays(arrays, source.name, columns)
     return points.replace(crs=None if crs is None else str(crs))
 
 
-def write_npz(curves: Curves, *, polygons: bool = False) -> bytes:
-    """Return the curves as an archive of arrays, with the points in the order of the input."""
+def write_npz_curves(curves: Curves, target: Target) -> None:
+    """Write the curves as an archive of arrays, with the points in the order of the input."""
     result = {name: getattr(curves, name) for name in _RESULT}
-    return _archive({"points": curves.points.xy, **result, **_carried(curves.points)})
+    target.write(_archive({"points": curves.points.xy, **result, **_carried(curves.points)}))
 
 
-def write_points_npy(points: Points) -> bytes:
-    """Return points as one array (n, 2), or (n, 3) with heights; NPY has no other columns."""
+def write_npy(points: Points, target: Target) -> None:
+    """Write points as one array (n, 2), or (n, 3) with heights; NPY has no other columns."""
     array = np.asarray(points)
     stream = io.BytesIO()
     np.save(stream, array if points.z is None else np.column_stack([array, points.z]))
-    return stream.getvalue()
+    target.write(stream.getvalue())
 
 
-def write_points_npz(points: Points) -> bytes:
-    """Return points as an archive of arrays: points, and z, crs, names and columns/NAME."""
-    return _archive({"points": np.asarray(points), **_carried(points)})
+def write_npz(points: Points, target: Target) -> None:
+    """Write points as an archive of arrays: points, and z, crs, names and columns/NAME."""
+    target.write(_archive({"points": np.asarray(points), **_carried(points)}))
 
 
 def _carried(points: Points) -> dict[str, Array]:
@@ -78,7 +84,8 @@ def _carried(points: Points) -> dict[str, Array]:
         arrays["z"] = attributes.z
     if attributes.crs is not None:
         arrays["crs"] = np.array(attributes.crs)
-    arrays["names"] = np.array(points.names)
+    if isinstance(points, Points):
+        arrays["names"] = np.array(points.names)
     return arrays
 
 
@@ -169,3 +176,24 @@ def _points(
         return Points(table, z=z, columns=columns, names=names)
     except InputError as error:
         raise FormatError(f"{source}, {error}") from None
+
+
+NPY = Format(
+    name="npy",
+    title="NPY",
+    suffixes=(".npy",),
+    sniff=lambda head: head.startswith(b"\x93NUMPY"),
+    read=read_npy,
+    write_points=write_npy,
+    options=(COLUMNS,),
+)
+NPZ = Format(
+    name="npz",
+    title="NPZ",
+    suffixes=(".npz",),
+    sniff=lambda head: head.startswith(b"PK\x03\x04"),
+    read=read_npz,
+    write_points=write_npz,
+    write_curves=write_npz_curves,
+    options=(COLUMNS,),
+)

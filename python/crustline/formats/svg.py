@@ -1,16 +1,21 @@
-"""SVG: a picture of the curves, one path each, with y upwards."""
+"""SVG: a picture of curves, points or splines, one path each, with y upwards."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from crustline.arrays import FloatArray, IntArray
-from crustline.curves import Curves
+from crustline.arrays import FloatArray
+from crustline.curves import Curves, Feature
 from crustline.formats.attributes import without_curves
+from crustline.formats.format import Format
+from crustline.formats.options import POLYGONS, TOLERANCE
+from crustline.formats.target import Target
+from crustline.path import Path
 from crustline.points import Points
+from crustline.smooth import Splines
 
 _WIDTH = 800
 _MARGIN = 0.03
@@ -18,6 +23,46 @@ _STYLE = (
     'fill="none" fill-rule="evenodd" stroke="#1f5fa8" stroke-width="1.5" '
     'stroke-linejoin="round" stroke-linecap="round"'
 )
+_STYLES = {
+    "polygon": ' fill="#1f5fa8" fill-opacity="0.15"',
+    "line": "",
+    "points": ' stroke="#c2410c" stroke-width="5"',
+}
+
+
+def write_curves(curves: Curves, target: Target, *, polygons: bool = False) -> None:
+    """Write a picture of curves; the same curves give the same text."""
+    target.write(picture_of_curves(curves, polygons=polygons))
+
+
+def write_points(points: Points, target: Target) -> None:
+    """Write a picture of points, as dots."""
+    target.write(picture_of_curves(without_curves(points)))
+
+
+def write_splines(splines: Splines, target: Target, *, tolerance: float | None = None) -> None:
+    """Write a picture of splines as cubic Bézier paths, closed by Z if they are rings."""
+    target.write(picture_of_splines(splines, tolerance))
+
+
+def picture_of_curves(curves: Curves, *, polygons: bool = False) -> str:
+    """Return a picture of curves: a path for each, dots for the isolated points."""
+    features = list(curves.features(polygons))
+    paths = [Path.of_feature(feature, curves.points.xy) for feature in features]
+    return _document(_frame_of(curves.points.xy), curves, zip(features, paths, strict=True))
+
+
+def picture_of_splines(splines: Splines, tolerance: float | None = None) -> str:
+    """Return a picture of splines: that of their curves, with cubics in place of lines."""
+    curves = splines.curves
+    features = list(curves.features())
+    lines, lonely = features[: len(curves)], features[len(curves) :]
+    controls = zip(lines, splines.beziers(tolerance), strict=True)
+    drawn = [(line, Path.beziers(control, line.closed)) for line, control in controls]
+    drawn += [(each, Path.of_feature(each, curves.points.xy)) for each in lonely]
+    # Control points enclose their curve.
+    frame = _frame_of(Path.joined(path for _, path in drawn).vertices)
+    return _document(frame, curves, drawn)
 
 
 @dataclass(frozen=True)
@@ -34,51 +79,11 @@ class _Frame:
     low: FloatArray
     high: FloatArray
 
-    def place(self, coordinates: FloatArray) -> FloatArray:
-        return (coordinates - self.origin) * self.scale
+    def place(self, path: Path) -> Path:
+        return replace(path, vertices=(path.vertices - self.origin) * self.scale)
 
 
-def write_svg(curves: Curves, *, polygons: bool = False) -> bytes:
-    """Return a picture of the curves; the same curves give the same text."""
-    frame = frame_of(curves.points.xy)
-    return document(frame, curves, _paths(curves, frame, polygons))
-
-
-def document(frame: _Frame, curves: Curves, elements: Iterable[str]) -> bytes:
-    """Return the whole drawing: the elements, placed in the frame, under a title that counts."""
-    margin = _MARGIN * float((frame.high - frame.low).max()) or 1.0
-    x, y = frame.low - margin
-    width, height = frame.high - frame.low + 2 * margin
-    box = " ".join(f"{each:.9g}" for each in (x, -y - height, width, height))
-    pixels = max(1, min(4 * _WIDTH, round(_WIDTH * height / width)))
-    note = f' data-origin="{frame.origin[0]!s} {frame.origin[1]!s}" data-scale="{frame.scale!r}"'
-    plain = not frame.origin.any() and frame.scale == 1
-    lines = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" width="{_WIDTH}"'
-        f' height="{pixels}"{"" if plain else note}>',
-        f"<title>{_title(curves)}</title>",
-        f'<g transform="scale(1 -1)" {_STYLE}>',
-        *elements,
-        "</g>",
-        "</svg>",
-        "",
-    ]
-    return "\n".join(lines).encode()
-
-
-def write_points_svg(points: Points) -> bytes:
-    """Return a picture of points, as dots."""
-    return write_svg(without_curves(points))
-
-
-def _title(curves: Curves) -> str:
-    rings = int(np.count_nonzero(curves.closed))
-    counts = [(rings, "ring"), (len(curves) - rings, "open curve")]
-    counts.append((len(curves.isolated), "isolated point"))
-    return ", ".join(f"{count} {word}{'s' * (count != 1)}" for count, word in counts if count)
-
-
-def frame_of(coordinates: FloatArray) -> _Frame:
+def _frame_of(coordinates: FloatArray) -> _Frame:
     if len(coordinates) == 0:
         return _Frame(np.zeros(2), 1.0, np.zeros(2), np.ones(2))
     low, high = coordinates.min(axis=0), coordinates.max(axis=0)
@@ -95,33 +100,48 @@ def _power(size: float) -> int:
     return int(np.clip(10 - np.frexp(size)[1], -1022, 1023))
 
 
-def _paths(curves: Curves, frame: _Frame, polygons: bool) -> Iterator[str]:
-    def path(rows: IntArray, closed: bool) -> str:
-        numbers = frame.place(curves.points.xy[rows]).T.tolist()
-        positions = map(" ".join, zip(*(map(short, each) for each in numbers), strict=True))
-        return f"M{'L'.join(positions)}{'Z' if closed else ''}"
-
-    for polygon in curves.polygons() if polygons else []:
-        body = "".join(path(ring, True) for ring in (polygon.shell, *polygon.holes))
-        yield element(body, ' fill="#1f5fa8" fill-opacity="0.15"')
-    for curve in curves:
-        if not (polygons and curve.closed):
-            yield element(path(curve.indices, curve.closed))
-    yield from dots(frame.place(curves.points.xy[curves.isolated]))
-
-
-def dots(places: FloatArray) -> Iterator[str]:
-    """Yield the element that draws the isolated points, if there are any."""
-    if len(places):
-        # A line of no length with round ends is a dot, whatever the zoom.
-        lines = "".join(f"M{short(x)} {short(y)}h0" for x, y in places.tolist())
-        yield element(lines, ' stroke="#c2410c" stroke-width="5"')
-
-
-def element(body: str, style: str = "") -> str:
-    return f'<path d="{body}" vector-effect="non-scaling-stroke"{style}/>'
+def _document(frame: _Frame, curves: Curves, drawn: Iterable[tuple[Feature, Path]]) -> str:
+    """Return the whole drawing: features, placed in the frame, under a title that counts."""
+    margin = _MARGIN * float((frame.high - frame.low).max()) or 1.0
+    x, y = frame.low - margin
+    width, height = frame.high - frame.low + 2 * margin
+    box = " ".join(f"{each:.9g}" for each in (x, -y - height, width, height))
+    pixels = max(1, min(4 * _WIDTH, round(_WIDTH * height / width)))
+    note = f' data-origin="{frame.origin[0]!s} {frame.origin[1]!s}" data-scale="{frame.scale!r}"'
+    plain = not frame.origin.any() and frame.scale == 1
+    lines = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" width="{_WIDTH}"'
+        f' height="{pixels}"{"" if plain else note}>',
+        f"<title>{_title(curves)}</title>",
+        f'<g transform="scale(1 -1)" {_STYLE}>',
+        *_elements(frame, drawn),
+        "</g>",
+        "</svg>",
+        "",
+    ]
+    return "\n".join(lines)
 
 
-def short(number: float) -> str:
-    """Return the shortest text of a number that gives it again, integers without a point."""
-    return repr(number).removesuffix(".0")
+def _title(curves: Curves) -> str:
+    rings = int(np.count_nonzero(curves.closed))
+    counts = [(rings, "ring"), (len(curves) - rings, "open curve")]
+    counts.append((len(curves.isolated), "isolated point"))
+    return ", ".join(f"{count} {word}{'s' * (count != 1)}" for count, word in counts if count)
+
+
+def _elements(frame: _Frame, drawn: Iterable[tuple[Feature, Path]]) -> Iterator[str]:
+    for feature, path in drawn:
+        body = frame.place(path).svg()
+        style = _STYLES[feature.kind]
+        yield f'<path d="{body}" vector-effect="non-scaling-stroke"{style}/>'
+
+
+SVG = Format(
+    name="svg",
+    title="SVG",
+    suffixes=(".svg",),
+    write_points=write_points,
+    write_curves=write_curves,
+    write_splines=write_splines,
+    options=(POLYGONS, TOLERANCE),
+)

@@ -6,7 +6,7 @@ The grammar is that of OGC Simple Features 1.2.1, section 7, without measures; S
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import chain
 
@@ -17,7 +17,10 @@ from crustline.curves import Curves
 from crustline.errors import FormatError, InputError
 from crustline.formats.attributes import attributes_of, coordinates_with_height, without_curves
 from crustline.formats.crs import epsg_code
-from crustline.formats.file import as_text
+from crustline.formats.format import Format
+from crustline.formats.options import POLYGONS
+from crustline.formats.source import Source
+from crustline.formats.target import Target
 from crustline.points import Points
 
 # How many parentheses lie around the positions of a geometry, besides the innermost.
@@ -31,6 +34,7 @@ _DEPTHS = {
     "MULTILINESTRING": 1,
     "MULTIPOLYGON": 2,
 }
+_WORDS = {"polygon": "POLYGON", "line": "LINESTRING", "points": "MULTIPOINT"}
 _TOKEN = re.compile(
     r"\s*(?:(?P<srid>SRID\s*=\s*\d+\s*;)|(?P<word>[A-Z]+)|(?P<leaf>\(\s*(?:[-+.\d]|nan|inf)[^()]*\))"
     r"|(?P<mark>[(),;])|(?P<end>\Z))",
@@ -42,16 +46,9 @@ _START = re.compile(
 )
 
 
-def looks_like_wkt(start: bytes) -> bool:
-    """Return whether the first bytes of a file are well-known text."""
-    return _START.match(start) is not None
-
-
-def read_wkt(content: bytes, source: str, columns: Sequence[str | int] | None) -> Points:
+def read(source: Source) -> Points:
     """Return the vertices of all geometries, without those that close a ring."""
-    if columns is not None:
-        raise InputError(f"{source} is WKT, which has no columns to choose: leave columns away")
-    parser = _Parser(as_text(content, source), source)
+    parser = _Parser(source.text(), source.name)
     parser.parse()
     coordinates = _as_array(parser.leaves, parser)
     z = coordinates[:, 2] if coordinates.shape[1] == 3 else None
@@ -59,7 +56,7 @@ def read_wkt(content: bytes, source: str, columns: Sequence[str | int] | None) -
     try:
         return Points(coordinates[:, :2], z=z, crs=crs)
     except InputError as error:
-        raise FormatError(f"{source}, {error}") from None
+        raise FormatError(f"{source.name}, {error}") from None
 
 
 @dataclass(frozen=True)
@@ -222,14 +219,14 @@ def _number(text: str) -> float:
 # Writing
 
 
-def write_wkt(curves: Curves, *, polygons: bool = False) -> bytes:
-    """Return the curves as text, a geometry a line, the isolated points as the last one."""
-    return "".join(f"{line}\n" for line in _lines(curves, polygons)).encode()
+def write_curves(curves: Curves, target: Target, *, polygons: bool = False) -> None:
+    """Write the curves as text, a geometry a line, the isolated points as the last one."""
+    target.write(f"{line}\n" for line in _lines(curves, polygons))
 
 
-def write_points_wkt(points: Points) -> bytes:
-    """Return points as one MULTIPOINT."""
-    return write_wkt(without_curves(points))
+def write_points(points: Points, target: Target) -> None:
+    """Write points as one MULTIPOINT."""
+    write_curves(without_curves(points), target)
 
 
 def _lines(curves: Curves, polygons: bool) -> Iterator[str]:
@@ -243,15 +240,26 @@ def _lines(curves: Curves, polygons: bool) -> Iterator[str]:
         positions = list(map(" ".join, zip(*(map(repr, each) for each in numbers), strict=True)))
         return f"({', '.join(positions + positions[:1] * closed)})"
 
-    for polygon in curves.polygons() if polygons else []:
-        rings = [polygon.shell, *(hole[::-1] for hole in polygon.holes)]
-        body = ", ".join(text(ring, True) for ring in rings)
-        yield f"{reference}POLYGON{dimension} ({body})"
-    for curve in curves:
-        if not (polygons and curve.closed):
-            yield f"{reference}LINESTRING{dimension} {text(curve.indices, curve.closed)}"
-    if len(curves.isolated):
-        points = ", ".join(
-            text(curves.isolated[k : k + 1], False) for k in range(len(curves.isolated))
-        )
-        yield f"{reference}MULTIPOINT{dimension} ({points})"
+    for feature in curves.features(polygons):
+        if feature.kind == "points":
+            parts = [text(feature.parts[0][k : k + 1], False) for k in range(len(feature.parts[0]))]
+        else:
+            parts = [text(part, feature.closed) for part in feature.parts]
+        body = parts[0] if feature.kind == "line" else f"({', '.join(parts)})"
+        yield f"{reference}{_WORDS[feature.kind]}{dimension} {body}"
+
+
+def _is_wkt(head: bytes) -> bool:
+    return _START.match(head.lstrip(b"\xef\xbb\xbf")) is not None
+
+
+WKT = Format(
+    name="wkt",
+    title="WKT",
+    suffixes=(".wkt",),
+    sniff=_is_wkt,
+    read=read,
+    write_points=write_points,
+    write_curves=write_curves,
+    options=(POLYGONS,),
+)

@@ -94,10 +94,10 @@ def _paths_of_file(svg: Any, name: str) -> list[Any]:
     """Return the paths of an SVG file, in the coordinates within its viewBox."""
     from xml.etree import ElementTree
 
-    from crustline.formats.file import read_bytes
+    from crustline.formats.source import Source
 
     try:
-        root = ElementTree.fromstring(read_bytes(name))
+        root = ElementTree.fromstring(Source(name).content())
     except ElementTree.ParseError as error:
         raise FormatError(f"{name} is no SVG: {error}") from None
     if root.tag.rpartition("}")[2] != "svg":

@@ -5,14 +5,13 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import PurePath
-from typing import TYPE_CHECKING, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
 from crustline.arrays import FloatArray
 from crustline.curves import Curves
-from crustline.errors import InputError
+from crustline.path import Path
 from crustline.smooth.spline import Spline, bezier_pieces
 
 if TYPE_CHECKING:
@@ -97,36 +96,13 @@ class Splines(Sequence[Spline]):
         """
         return bezier_pieces(self.splines, tolerance)
 
-    def write(self, path: str | os.PathLike[str], *, tolerance: float | None = None) -> None:
-        """Write the curves to an SVG file as cubic Bézier paths, whole or not at all.
+    def write(
+        self, path: str | os.PathLike[str], *, format: str | None = None, **options: Any
+    ) -> None:
+        """Write the splines to a file: see `crustline.write`, which says what each format holds."""
+        from crustline.formats import write
 
-        Parameters
-        ----------
-        path : path-like
-            The file, with the suffix .svg, which is replaced if it exists; "-" is standard output.
-        tolerance : float, optional
-            As for `beziers`: fewer pieces within this distance. By default exact.
-
-        Raises
-        ------
-        FormatError
-            If the file cannot be written; nothing is left behind then.
-        InputError
-            If the suffix is another one, or the tolerance is not a positive number.
-
-        Notes
-        -----
-        A path for each curve, closed by Z if it is a ring, y upwards, dots for the isolated points:
-        the drawing of `Curves.write`, with curves in place of lines. Numbers have the fewest digits
-        that give the same float64 again.
-        """
-        from crustline.formats.file import replace_file
-
-        if os.fspath(path) != "-" and PurePath(path).suffix.lower() != ".svg":
-            raise InputError(
-                f"no format for smooth curves is known for {os.fspath(path)!r}: name it .svg"
-            )
-        replace_file(path, _svg(self, tolerance))
+        write(self, path, format=format, **options)
 
     def plot(self, ax: Axes | None = None, *, points: bool = True) -> Axes:
         """Draw the splines: rings blue, polylines vermillion.
@@ -156,7 +132,9 @@ class Splines(Sequence[Spline]):
 
     def _repr_svg_(self) -> str:
         """Return the picture that notebooks show."""
-        return _svg(self, None).decode()
+        from crustline.formats.svg import picture_of_splines
+
+        return picture_of_splines(self)
 
     def __repr__(self) -> str:
         rings = sum(spline.closed for spline in self.splines)
@@ -166,38 +144,11 @@ class Splines(Sequence[Spline]):
         return f"<Splines: {words}; {len(self.curves.points)} points>"
 
 
-def _svg(curves: Splines, tolerance: float | None) -> bytes:
-    """Return the drawing of `formats.svg`, with Bézier pieces in place of lines."""
-    from crustline.formats import svg
-
-    beziers = curves.beziers(tolerance)
-    lonely = curves.curves.points.xy[curves.curves.isolated]
-    # Control points enclose their curve.
-    frame = svg.frame_of(np.concatenate([lonely, *(each.reshape(-1, 2) for each in beziers)]))
-    paths = _svg_paths(curves, [frame.place(each) for each in beziers])
-    return svg.document(frame, curves.curves, [*paths, *svg.dots(frame.place(lonely))])
-
-
-def _svg_paths(curves: Splines, beziers: list[FloatArray]) -> Iterator[str]:
-    from crustline.formats.svg import element, short
-
-    for spline, control in zip(curves, beziers, strict=True):
-        start = " ".join(map(short, control[0, 0].tolist()))
-        rest = " ".join(map(short, control[:, 1:].ravel().tolist()))
-        yield element(f"M{start}C{rest}{'Z' if spline.closed else ''}")
-
-
 def _draw(splines: Sequence[Spline], color: str, ax: Axes) -> None:
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path as Outline
 
-    if not splines:
-        return
-    outlines = []
-    for control in bezier_pieces(splines, None):
-        vertices = np.concatenate([control[0, :1], control[:, 1:].reshape(-1, 2)])
-        codes = np.full(len(vertices), Outline.CURVE4, np.uint8)
-        codes[0] = Outline.MOVETO
-        outlines.append(Outline(vertices, codes))
-    outline = Outline.make_compound_path(*outlines)
-    ax.add_patch(PathPatch(outline, fill=False, edgecolor=color, linewidth=1.8, zorder=3))
+    if splines:
+        path = Path.joined(map(Path.beziers, bezier_pieces(splines, None)))
+        outline = Outline(path.vertices, path.codes)
+        ax.add_patch(PathPatch(outline, fill=False, edgecolor=color, linewidth=1.8, zorder=3))

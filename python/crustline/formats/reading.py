@@ -1,0 +1,168 @@
+"""The doors for reading: points, curves, pieces of points, and what a file holds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from crustline.formats.catalog import format_of_source
+from crustline.formats.crs import normalize_crs
+from crustline.formats.format import Layer
+from crustline.formats.source import Source
+from crustline.points import Points
+
+if TYPE_CHECKING:
+    from crustline.curves import Curves
+
+__all__ = ["layers", "read", "read_curves", "stream"]
+
+
+def read(
+    path: Any,
+    *,
+    format: str | None = None,
+    crs: str | None = None,
+    **options: Any,
+) -> Points:
+    """Read the points of a file, with heights, other columns and CRS beside them.
+
+    Parameters
+    ----------
+    path : path-like, bytes, file-like object or iterable of bytes
+        The file, or what is in it; "-" is standard input.
+    format : str, optional
+        The name of a format, as `crustline.formats.FORMATS` has them. By default the suffix
+        decides, and the content where the suffix does not.
+    crs : str, optional
+        The coordinate reference system, such as "EPSG:4326", in place of what the file says.
+        Nothing is transformed.
+    columns : sequence of str or int, length 2 or 3, optional
+        CSV, TSV, XYZ, NPY, NPZ: the columns that hold x, y and, if given, z: names, or positions
+        counted from 0. By default x and y, lon and lat, longitude and latitude, easting and
+        northing, or e and n are found by name in any case, and z, elevation or height with them.
+        Without a header the first two columns are x and y and the third is z.
+
+    Returns
+    -------
+    points : Points
+        One row for each point of the file, in its order, with `z`, `columns`, `crs` and `names`.
+
+    Raises
+    ------
+    FormatError
+        If the file cannot be read, is empty, or holds a value, row or column that does not fit; the
+        message names the file, the line and the value.
+    InputError
+        If the format or an option is not one of the above, or its value does not fit.
+    MissingExtraError
+        If the format needs packages that are not installed.
+
+    Notes
+    -----
+    Numbers are read exactly, to the nearest float64. csv, tsv and xyz are one reader: comma, tab,
+    semicolon or spaces between columns, lines that start with # are comments, decimal commas where
+    semicolons separate. Other columns are numbers if every value is one, else str objects. GeoJSON
+    and WKT give the vertices of every geometry, without the vertex that closes a ring. A property
+    that is everywhere a list with a value per vertex is spread over the vertices.
+
+    Examples
+    --------
+    >>> points = read(b"lon,lat,name\\n8.5,47.4,Zurich\\n7.4,46.9,Bern\\n", crs="EPSG:4326")
+    >>> points.xy.tolist(), points.columns["name"].tolist()
+    ([[8.5, 47.4], [7.4, 46.9]], ['Zurich', 'Bern'])
+    """
+    source = _as_source(path)
+    chosen = format_of_source(source, format)
+    settings = chosen.settings("read", options)
+    chosen.require()
+    assert chosen.read is not None
+    return _with_crs(chosen.read(source, **settings), crs)
+
+
+def read_curves(
+    path: Any, *, format: str | None = None, crs: str | None = None, **options: Any
+) -> Curves:
+    """Read the curves of a file: the lines and rings that it holds, not only their vertices.
+
+    Parameters
+    ----------
+    path, format, crs, **options
+        As for `read`.
+
+    Returns
+    -------
+    curves : Curves
+        Traced from the edges that the file gives: rings and polylines, split at branches.
+
+    Raises
+    ------
+    FormatError, InputError, MissingExtraError
+        As for `read`; `InputError`, too, if the format knows points only.
+    """
+    from dataclasses import replace
+
+    source = _as_source(path)
+    chosen = format_of_source(source, format, "read_curves")
+    settings = chosen.settings("read_curves", options)
+    chosen.require()
+    assert chosen.read_curves is not None
+    curves = chosen.read_curves(source, **settings)
+    return replace(curves, points=_with_crs(curves.points, crs))
+
+
+def stream(
+    path: Any,
+    rows: int = 1_000_000,
+    *,
+    format: str | None = None,
+    crs: str | None = None,
+    **options: Any,
+) -> Iterator[Points]:
+    """Read the points of a file piece by piece, for files larger than memory.
+
+    Parameters
+    ----------
+    path, format, crs, **options
+        As for `read`.
+    rows : int, default 1,000,000
+        About how many points a piece has.
+
+    Yields
+    ------
+    points : Points
+        The pieces in the order of the file. A format that cannot be read in pieces gives one.
+
+    Raises
+    ------
+    FormatError, InputError, MissingExtraError
+        As for `read`, where the fault is met.
+    """
+    source = _as_source(path)
+    chosen = format_of_source(source, format)
+    task = "stream" if chosen.stream else "read"
+    settings = chosen.settings(task, options)
+    chosen.require()
+    if chosen.stream is not None:
+        for piece in chosen.stream(source, rows, **settings):
+            yield _with_crs(piece, crs)
+    elif chosen.read is not None:
+        yield _with_crs(chosen.read(source, **settings), crs)
+
+
+def layers(path: Any, *, format: str | None = None) -> list[Layer]:
+    """Return the layers of a file; none if its format knows no layers."""
+    source = _as_source(path)
+    chosen = format_of_source(source, format)
+    if chosen.layers is None:
+        return []
+    chosen.require()
+    return chosen.layers(source)
+
+
+def _as_source(path: Any) -> Source:
+    return path if isinstance(path, Source) else Source(path)
+
+
+def _with_crs(points: Points, crs: str | None) -> Points:
+    name = points.crs if crs is None else crs
+    return points if name is None else points.replace(crs=normalize_crs(str(name)))

@@ -1,0 +1,247 @@
+"""Where a reader's bytes come from: a file, standard input, bytes, a file-like object, chunks."""
+
+from __future__ import annotations
+
+import io
+import os
+import stat
+import sys
+import tempfile
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from crustline.errors import CrustlineError, FormatError, FormatWarning
+
+__all__ = ["HEAD", "Source"]
+
+#: How many of the first bytes `Source.head` shows.
+HEAD = 4096
+_CHUNK = 1 << 20
+_BYTE_ORDER_MARKS = (
+    (b"\xef\xbb\xbf", "utf-8-sig"),
+    (b"\xff\xfe", "utf-16"),
+    (b"\xfe\xff", "utf-16"),
+)
+
+
+@dataclass(eq=False)
+class Source:
+    """The bytes that a reader reads, and what it has to say about them.
+
+    Attributes
+    ----------
+    name : str
+        What messages call it.
+    given : path-like, bytes, file-like object or iterable of bytes
+        Where the bytes are; "-" is standard input. Streams are read once.
+    notes : dict of str to str
+        How the bytes were understood, in a few words each, for `crustline info`.
+    """
+
+    given: Any
+    name: str = ""
+    notes: dict[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.name = self.name or _name_of(self.given)
+        refuse_null(self.given)
+
+    @property
+    def suffix(self) -> str:
+        """The end of the name, from its last point on, in lower case."""
+        return Path(self.name).suffix.lower()
+
+    @cached_property
+    def size(self) -> int | None:
+        """The number of bytes; None if that is not known beforehand."""
+        if isinstance(self.given, bytes):
+            return len(self.given)
+        if not self._is_file:
+            return None
+        with self._named_faults():
+            return os.stat(self.given).st_size
+
+    @cached_property
+    def head(self) -> bytes:
+        """The first bytes, at most `HEAD`; they are not taken away."""
+        if self._is_stream:
+            return self._stream.peek(HEAD)[:HEAD]
+        with self.open() as file:
+            return file.read(HEAD)
+
+    @contextmanager
+    def open(self) -> Iterator[BinaryIO]:
+        """Open it for reading from its start; a stream cannot seek, and only once be opened."""
+        with self._named_faults():
+            if self._is_stream:
+                yield self._stream
+            elif isinstance(self.given, bytes):
+                yield io.BytesIO(self.given)
+            else:
+                with open(self.given, "rb") as file:
+                    _refuse_device(file)
+                    yield file
+
+    def chunks(self, size: int = _CHUNK) -> Iterator[bytes]:
+        """Yield all bytes in pieces of some size."""
+        with self.open() as file:
+            while chunk := file.read(size):
+                yield chunk
+
+    def content(self) -> bytes:
+        """Return all bytes; refuse none at all."""
+        if isinstance(self.given, bytes):
+            content = self.given
+        else:
+            with self.open() as file:
+                content = file.read()
+        if not content[:HEAD].strip(b"\xef\xbb\xbf \t\r\n") and not content.strip():
+            raise FormatError(f"{self.name} is empty: give a file with at least one point")
+        return content
+
+    def text(self, encoding: str | None = None) -> str:
+        """Return all text; by default UTF-8, or UTF-16 with its mark. Lines end with a newline."""
+        content = self.content()
+        marks = (known for mark, known in _BYTE_ORDER_MARKS if content.startswith(mark))
+        try:
+            text = content.decode(encoding or next(marks, "utf-8"))
+        except UnicodeDecodeError as error:
+            line = content.count(b"\n", 0, error.start) + 1
+            raise self.error(
+                f"byte 0x{content[error.start]:02x} is not {error.encoding.upper()} text: "
+                "save the file as UTF-8, or choose its format",
+                f"line {line}",
+            ) from None
+        return text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
+
+    @contextmanager
+    def path(self) -> Iterator[Path]:
+        """Give the path of a file with these bytes, for libraries that open files themselves."""
+        if self._is_file:
+            with self.open():
+                pass
+            yield Path(self.given)
+            return
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, f"source{self.suffix}")
+            with open(path, "wb") as file:
+                file.writelines(self.chunks())
+            yield path
+
+    def error(self, fault: str, place: str = "") -> FormatError:
+        """Return the error about a fault at a place, such as "line 3"."""
+        return FormatError(f"{self.name}{', ' if place else ''}{place}: {fault}")
+
+    def warn(self, doubt: str) -> None:
+        """Warn of what was read although it is doubtful; name the option that says otherwise."""
+        warnings.warn(f"{self.name}: {doubt}", FormatWarning, stacklevel=2)
+
+    def note(self, subject: str, finding: str) -> None:
+        """Note how something was understood, for `crustline info`."""
+        self.notes[subject] = finding
+
+    @contextmanager
+    def library(self, name: str) -> Iterator[None]:
+        """Make whatever a library raises a `FormatError`, in a sentence."""
+        try:
+            yield
+        except (CrustlineError, MemoryError):
+            raise
+        except Exception as error:
+            lines = str(error).split("\n")
+            reason = f"{type(error).__name__}{': ' if lines[0] else ''}{lines[0][:120]}"
+            raise self.error(f"{name} cannot read it ({reason}): repair or save it again") from None
+
+    @property
+    def _is_stream(self) -> bool:
+        return not (isinstance(self.given, bytes) or self._is_file)
+
+    @property
+    def _is_file(self) -> bool:
+        return isinstance(self.given, str | os.PathLike) and os.fspath(self.given) != "-"
+
+    @cached_property
+    def _stream(self) -> io.BufferedReader:
+        return io.BufferedReader(_Chunks(_chunks_of(self.given)), HEAD)
+
+    @contextmanager
+    def _named_faults(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as error:
+            raise FormatError(f"{self.name} cannot be read: {reason_of(error)}") from None
+
+
+class _Chunks(io.RawIOBase):
+    """Chunks of bytes as a file that is read once."""
+
+    def __init__(self, chunks: Iterator[bytes]) -> None:
+        self.chunks = chunks
+        self.rest = memoryview(b"")
+
+    def readable(self) -> bool:
+        return True
+
+    def readinto(self, buffer: Any) -> int:
+        while not len(self.rest):
+            chunk = next(self.chunks, None)
+            if chunk is None:
+                return 0
+            self.rest = memoryview(chunk)
+        count = min(len(buffer), len(self.rest))
+        buffer[:count] = self.rest[:count]
+        self.rest = self.rest[count:]
+        return count
+
+
+def _chunks_of(given: Any) -> Iterator[bytes]:
+    """Yield the chunks of standard input, of a file-like object, or of an iterable."""
+    if isinstance(given, str):
+        given = sys.stdin.buffer
+        _refuse_device(given)
+    for chunk in _reads(given) if hasattr(given, "read") else given:
+        yield chunk.encode() if isinstance(chunk, str) else bytes(chunk)
+
+
+def _reads(file: Any) -> Iterator[Any]:
+    while chunk := file.read(_CHUNK):
+        yield chunk
+
+
+def _refuse_device(file: Any) -> None:
+    """Refuse a device such as /dev/zero, which has no end; a terminal has one."""
+    try:
+        mode = os.fstat(file.fileno()).st_mode
+    except (OSError, AttributeError):
+        return  # no file of the system
+    if stat.S_ISCHR(mode) and not file.isatty():
+        raise OSError(None, "it is a device: give a file")
+
+
+def _name_of(given: Any) -> str:
+    if isinstance(given, str | os.PathLike):
+        return "standard input" if os.fspath(given) == "-" else os.fspath(given)
+    name = getattr(given, "name", None)
+    return name if isinstance(name, str) else f"<{type(given).__name__}>"
+
+
+def refuse_null(given: object) -> None:
+    """Refuse a path with a null character, which no system takes."""
+    if isinstance(given, str | os.PathLike) and "\0" in os.fspath(given):
+        raise FormatError(f"{os.fspath(given)!r} is no file name: it holds a null character")
+
+
+def reason_of(error: OSError) -> str:
+    """Return why a file cannot be read or written, and what to do."""
+    advice = {
+        FileNotFoundError: "there is no such file or folder: check the name",
+        IsADirectoryError: "it is a folder: give a file name",
+        NotADirectoryError: "a part of its path is no folder: check the name",
+        PermissionError: "you have no permission: change it or choose another place",
+    }
+    return advice.get(type(error), f"{error.strerror or error}: check the place and its free space")
