@@ -23,6 +23,7 @@ __all__ = [
     "one_step_crust",
     "rcgh",
     "relative_neighborhood",
+    "shells",
     "trace",
 ]
 
@@ -162,6 +163,14 @@ def trace(
     threads: int | None = None,
     progress: _Progress | None = None,
 ) -> tuple[_Integers, _Integers, NDArray[np.bool_], _Integers]: ...
+def shells(
+    points: _Floats,
+    indices: _Integers,
+    offsets: _Integers,
+    closed: NDArray[np.bool_],
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
 def is_canonical(edges: _Integers, points: int) -> bool: ...
 def medial_axis(
     delaunay: Delaunay,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 from os import PathLike
 from typing import TYPE_CHECKING, Any, Literal, overload
@@ -207,13 +206,15 @@ class Curves(Record, Sequence[Curve]):
         Exact where edges meet at points only, as those of every method do: a ring lies in another
         if a point of its own does, which is decided by signs without rounding. Rings that cross
         each other have no nesting: there a ring counts as inside if its first point off the others
-        is, and a hole without a shell around it becomes a shell. Each ring looks at the edges in
-        one of √k horizontal strips: about O(k log k + c √k) time for k points on c rings.
+        is, and a hole without a shell around it becomes a shell. Linear time, and that of the
+        edges that a ray from each ring crosses.
         """
-        rings = np.flatnonzero(self.closed).tolist()
-        if not rings:
-            return []
-        return _nest([self._curve(number).indices for number in rings], self.points.xy)
+        shells = _core.shells(self.points.xy, self.indices, self.offsets, self.closed).tolist()
+        holes: dict[int, list[IntArray]] = {k: [] for k, shell in enumerate(shells) if shell == k}
+        for number, shell in enumerate(shells):
+            if shell not in (-1, number):
+                holes[shell].append(self._curve(number).indices)
+        return [Polygon(self._curve(k).indices, tuple(each)) for k, each in holes.items()]
 
     def features(self, polygons: bool = False) -> Iterator[Feature]:
         """Yield polygons, if they are asked for, then the other curves, then the isolated points.
@@ -347,99 +348,3 @@ def reconstruct(
     delaunay = as_delaunay(points)
     return trace(delaunay, method(delaunay, **parameters))
 
-
-# Nesting. Every ring asks one point of its own for the rings around it: the ones whose edges a ray
-# to the right crosses an odd number of times. Strips in y keep the edges that a ray has to look at
-# few.
-
-
-def _nest(rings: list[IntArray], coordinates: FloatArray) -> list[Polygon]:
-    around = _rings_around(rings, coordinates)
-    depths = np.array([len(each) for each in around])
-    holes: dict[int, list[IntArray]] = {n: [] for n in np.flatnonzero(depths % 2 == 0).tolist()}
-    for number in np.flatnonzero(depths % 2).tolist():
-        shell = _innermost_shell(around[number], depths)
-        if shell is None:
-            holes[number] = []
-        else:
-            holes[shell].append(rings[number])
-    return [Polygon(rings[number], tuple(holes[number])) for number in sorted(holes)]
-
-
-def _innermost_shell(around: IntArray, depths: IntArray) -> int | None:
-    shells = around[depths[around] % 2 == 0]
-    return int(shells[np.argmax(depths[shells])]) if len(shells) else None
-
-
-def _rings_around(rings: list[IntArray], coordinates: FloatArray) -> list[IntArray]:
-    """Return for each ring the numbers of the rings that its own point lies in."""
-    starts = np.concatenate(rings)
-    ends = np.concatenate([np.roll(ring, -1) for ring in rings])
-    owners = np.repeat(np.arange(len(rings)), [len(ring) for ring in rings])
-    strips = _Strips(coordinates[starts], coordinates[ends])
-    own = coordinates[_own_points(rings, starts)]
-    around = []
-    for number, point in enumerate(own):
-        crossed = owners[strips.crossed(point)]
-        inside, counts = np.unique(crossed[crossed != number], return_counts=True)
-        around.append(inside[counts % 2 == 1])
-    return around
-
-
-def _own_points(rings: list[IntArray], all_rows: IntArray) -> IntArray:
-    """Return a point of each ring that no other ring touches; only a branch can be shared."""
-    uses = np.bincount(all_rows)
-    return np.array([ring[np.argmin(uses[ring])] for ring in rings])
-
-
-class _Strips:
-    """Edges by horizontal strips, to find those that a horizontal ray crosses."""
-
-    def __init__(self, starts: FloatArray, ends: FloatArray) -> None:
-        upward = starts[:, 1] <= ends[:, 1]
-        self.low = np.where(upward[:, None], starts, ends)
-        self.high = np.where(upward[:, None], ends, starts)
-        count = min(4096, 1 + int(np.sqrt(len(starts))))
-        # Strips with equally many points each: an even spacing would put a dense region into one.
-        self.bounds = np.quantile(
-            self.low[:, 1], np.linspace(0, 1, count + 1)[1:-1], method="lower"
-        )
-        first = np.searchsorted(self.bounds, self.low[:, 1], side="right")
-        last = np.searchsorted(self.bounds, self.high[:, 1], side="right")
-        spans = last - first + 1
-        edges = np.repeat(np.arange(len(starts)), spans)
-        within = np.arange(len(edges)) - np.repeat(np.cumsum(spans) - spans, spans)
-        strip = first[edges] + within
-        self.edges = edges[np.argsort(strip, kind="stable")]
-        self.offsets = np.concatenate([[0], np.cumsum(np.bincount(strip, minlength=count))])
-
-    def crossed(self, point: FloatArray) -> IntArray:
-        """Return the edges that the ray from the point to the right crosses, not only touches."""
-        strip = np.searchsorted(self.bounds, point[1], side="right")
-        edges = self.edges[self.offsets[strip] : self.offsets[strip + 1]]
-        low, high = self.low[edges], self.high[edges]
-        meets = (low[:, 1] <= point[1]) & (point[1] < high[:, 1])
-        meets &= np.maximum(low[:, 0], high[:, 0]) > point[0]
-        low, high, edges = low[meets], high[meets], edges[meets]
-        crossed: IntArray = edges[_left_of(point, low, high)]
-        return crossed
-
-
-def _left_of(point: FloatArray, low: FloatArray, high: FloatArray) -> BoolArray:
-    """Return whether the point is strictly left of each edge from low to high, exactly."""
-    with np.errstate(all="ignore"):
-        one = (high[:, 0] - low[:, 0]) * (point[1] - low[:, 1])
-        other = (high[:, 1] - low[:, 1]) * (point[0] - low[:, 0])
-        turn = one - other
-        # Shewchuk's ccwerrboundA, and a floor under which a product may have lost bits.
-        bound = 3.3306690738754716e-16 * (np.abs(one) + np.abs(other)) + 1e-290
-        sure = np.abs(turn) > bound
-    left: BoolArray = turn > 0
-    for number in np.flatnonzero(~sure):
-        left[number] = _exact_turn(low[number], high[number], point) > 0
-    return left
-
-
-def _exact_turn(a: FloatArray, b: FloatArray, c: FloatArray) -> Fraction:
-    (ax, ay), (bx, by), (cx, cy) = (map(Fraction, point.tolist()) for point in (a, b, c))
-    return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)

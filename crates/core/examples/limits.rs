@@ -3,7 +3,7 @@
 //! `cargo run --release --example limits` prints JSON: a description, and seconds per million points.
 
 use crustline_core::Point;
-use crustline_core::exact::predicates::{Base, in_circle};
+use crustline_core::predicates::{Base, in_circle};
 use std::hint::black_box;
 use std::time::Instant;
 

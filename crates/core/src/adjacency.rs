@@ -1,18 +1,55 @@
-//! Edges seen from the vertices of a triangulation: the neighbors of each vertex along the curve.
+//! Edges seen from their ends: the neighbors of each along the curve.
 
 use crate::delaunay::Delaunay;
 use crate::edges::{Edges, sort};
 use rayon::prelude::*;
 
-/// The neighbors of every vertex along some edges.
+/// The edges at each of some numbers, which stand for rows or for vertices.
 #[derive(Debug, Clone, Default)]
-pub struct Adjacency {
-    /// The edges as vertices: p < q in each, sorted, unique.
-    edges: Edges,
+pub struct Incidence {
     /// `ends[offsets[v]..offsets[v + 1]]` are the neighbors of v.
     offsets: Vec<u32>,
     /// Neighbor, and the number of the edge to it.
     ends: Vec<(u32, u32)>,
+}
+
+impl Incidence {
+    /// Of `edges` between numbers below `count`. Linear time.
+    #[must_use]
+    pub fn new(edges: &Edges, count: usize) -> Self {
+        let mut offsets = vec![0u32; count + 2];
+        for &v in edges.as_flattened() {
+            offsets[v as usize + 2] += 1;
+        }
+        for v in 1..=count {
+            offsets[v + 1] += offsets[v];
+        }
+        let mut ends = vec![(0, 0); 2 * edges.len()];
+        for (number, &[p, q]) in edges.iter().enumerate() {
+            for (from, to) in [(p, q), (q, p)] {
+                let slot = &mut offsets[from as usize + 1];
+                ends[*slot as usize] = (to, number as u32);
+                *slot += 1;
+            }
+        }
+        Self { offsets, ends }
+    }
+
+    /// The neighbors of `v`, each with the number of the edge to it.
+    #[inline]
+    #[must_use]
+    pub fn of(&self, v: u32) -> &[(u32, u32)] {
+        let v = v as usize;
+        &self.ends[self.offsets[v] as usize..self.offsets[v + 1] as usize]
+    }
+}
+
+/// The neighbors of every vertex of a triangulation along some edges.
+#[derive(Debug, Clone, Default)]
+pub struct Adjacency {
+    /// The edges as vertices: p < q in each, sorted, unique.
+    edges: Edges,
+    incidence: Incidence,
 }
 
 impl Adjacency {
@@ -34,8 +71,8 @@ impl Adjacency {
     pub fn of_vertices(parts: &[Edges], count: usize) -> Self {
         let mut edges = sort(parts, count);
         edges.dedup();
-        let (offsets, ends) = incidence(&edges, count);
-        Self { edges, offsets, ends }
+        let incidence = Incidence::new(&edges, count);
+        Self { edges, incidence }
     }
 
     /// The edges as vertices: p < q in each, sorted, unique.
@@ -48,8 +85,7 @@ impl Adjacency {
     #[inline]
     #[must_use]
     pub fn of(&self, vertex: u32) -> &[(u32, u32)] {
-        let v = vertex as usize;
-        &self.ends[self.offsets[v] as usize..self.offsets[v + 1] as usize]
+        self.incidence.of(vertex)
     }
 
     /// The number of the edge between `p` and `q`, if there is one.
@@ -71,23 +107,4 @@ pub fn vertices_of_rows(delaunay: &Delaunay) -> Vec<u32> {
         vertex[row as usize] = vertex[first as usize];
     }
     vertex
-}
-
-fn incidence(edges: &Edges, vertices: usize) -> (Vec<u32>, Vec<(u32, u32)>) {
-    let mut offsets = vec![0u32; vertices + 2];
-    for &vertex in edges.as_flattened() {
-        offsets[vertex as usize + 2] += 1;
-    }
-    for vertex in 1..=vertices {
-        offsets[vertex + 1] += offsets[vertex];
-    }
-    let mut ends = vec![(0, 0); 2 * edges.len()];
-    for (number, &[p, q]) in edges.iter().enumerate() {
-        for (from, to) in [(p, q), (q, p)] {
-            let slot = &mut offsets[from as usize + 1];
-            ends[*slot as usize] = (to, number as u32);
-            *slot += 1;
-        }
-    }
-    (offsets, ends)
 }

@@ -2,15 +2,12 @@
 
 use crate::delaunay::{Delaunay, Edge};
 use crate::error::Result;
-use crate::parts::split;
+use crate::parts::{GRAIN, in_parts, split};
 use crate::progress::{Progress, Stage};
 use rayon::prelude::*;
 
 /// Edges as input rows: i < j in each, sorted, unique.
 pub type Edges = Vec<[u32; 2]>;
-
-/// Vertices that one task takes at a time.
-const GRAIN: usize = 1 << 12;
 
 /// The edges of the triangulation that `keep` keeps, as rows.
 ///
@@ -26,19 +23,15 @@ pub fn select<S>(
 ) -> Result<Edges> {
     let vertices = delaunay.points().len();
     progress.enter(Stage::Select, vertices)?;
-    let part = |start: usize| {
-        let end = (start + GRAIN).min(vertices);
+    let parts = in_parts(vertices, GRAIN, progress, |vertices| {
         let mut memory = scratch();
-        let mut kept = Vec::with_capacity(end - start);
-        for p in start..end {
+        let mut kept = Vec::with_capacity(vertices.len());
+        for p in vertices {
             let edges = delaunay.edges_from(p as u32).filter(|&edge| keep(&mut memory, edge));
             kept.extend(edges.map(|edge| rows(delaunay, edge.p, edge.q)));
         }
-        progress.advance(end - start)?;
-        Ok(kept)
-    };
-    let starts: Vec<usize> = (0..vertices).step_by(GRAIN).collect();
-    let parts = starts.into_par_iter().map(part).collect::<Result<Vec<_>>>()?;
+        kept
+    })?;
     Ok(sort(&parts, delaunay.input_len()))
 }
 

@@ -5,25 +5,29 @@
 //! that they are compared with, on a Delaunay triangulation of our own. No Python, no input or output,
 //! no global state; parallel work runs on the current rayon pool and never changes an answer.
 
-pub mod adjacency;
+mod adjacency;
 pub mod certify;
-pub mod cocircular;
+mod cocircular;
 pub mod connect;
-pub mod delaunay;
+mod delaunay;
 pub mod edges;
-pub mod error;
-pub mod exact;
-pub mod forbidden_region;
+mod error;
+mod exact;
+mod forbidden_region;
+mod forest;
 pub mod interpolant;
 pub mod medial_axis;
 pub mod methods;
-pub mod parts;
-pub mod point;
-pub mod progress;
-pub mod space;
+pub mod nesting;
+mod parts;
+mod point;
+mod progress;
+mod space;
 pub mod trace;
 
 pub use delaunay::Delaunay;
 pub use error::{Error, Result};
+// What the rest stands on, for those who measure it alone.
+pub use exact::predicates;
 pub use point::Point;
 pub use progress::Progress;

@@ -4,8 +4,8 @@ use crate::error::{Error, Result};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 
 /// The stages of a call, in the order in which they run.
-pub const STAGES: [&str; 8] =
-    ["sort", "triangulate", "stars", "select", "trace", "axis", "interpolate", "measure"];
+pub const STAGES: [&str; 9] =
+    ["sort", "triangulate", "stars", "select", "trace", "nest", "axis", "interpolate", "measure"];
 
 /// How many points a loop may pass between two looks at whether to stop: some milliseconds.
 pub const PACE: usize = 1 << 19;
@@ -24,6 +24,8 @@ pub enum Stage {
     Select,
     /// Joining edges into curves.
     Trace,
+    /// Nesting rings.
+    Nest,
     /// Collecting the medial axis of samples.
     Axis,
     /// Fitting the smooth interpolant, and finding its axis.

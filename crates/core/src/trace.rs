@@ -1,5 +1,6 @@
 //! Tracing: edges joined end to end into rings and polylines.
 
+use crate::adjacency::Incidence;
 use crate::edges::Edges;
 use crate::error::Result;
 use crate::exact::predicates::orientation;
@@ -31,16 +32,16 @@ pub struct Curves {
 /// A cancelled `progress`.
 pub fn trace(points: &[Point], edges: &Edges, progress: &Progress) -> Result<Curves> {
     progress.enter(Stage::Trace, edges.len())?;
-    let graph = Incidence::new(points.len(), edges);
+    let graph = Incidence::new(edges, points.len());
     let mut walk =
-        Walk { edges, graph: &graph, used: vec![false; edges.len()], curves: Curves::default() };
+        Walk { graph: &graph, used: vec![false; edges.len()], curves: Curves::default() };
     walk.curves.offsets.push(0);
     let rows = 0..points.len() as u32;
-    for row in rows.clone().filter(|&row| !matches!(graph.degree(row), 0 | 2)) {
+    for row in rows.clone().filter(|&row| !matches!(graph.of(row).len(), 0 | 2)) {
         walk.from(row);
     }
     progress.advance(walk.curves.indices.len())?;
-    for row in rows.clone().filter(|&row| graph.degree(row) == 2) {
+    for row in rows.clone().filter(|&row| graph.of(row).len() == 2) {
         walk.from(row);
     }
     progress.advance(0)?;
@@ -54,45 +55,8 @@ pub fn trace(points: &[Point], edges: &Edges, progress: &Progress) -> Result<Cur
     Ok(curves.sorted())
 }
 
-/// The edges at each row.
-struct Incidence {
-    offsets: Vec<u32>,
-    incident: Vec<u32>,
-}
-
-impl Incidence {
-    fn new(rows: usize, edges: &Edges) -> Self {
-        let mut offsets = vec![0u32; rows + 2];
-        for &row in edges.as_flattened() {
-            offsets[row as usize + 2] += 1;
-        }
-        for row in 1..=rows {
-            offsets[row + 1] += offsets[row];
-        }
-        let mut incident = vec![0; 2 * edges.len()];
-        for (edge, ends) in edges.iter().enumerate() {
-            for &row in ends {
-                let slot = &mut offsets[row as usize + 1];
-                incident[*slot as usize] = edge as u32;
-                *slot += 1;
-            }
-        }
-        Self { offsets, incident }
-    }
-
-    fn at(&self, row: u32) -> &[u32] {
-        let row = row as usize;
-        &self.incident[self.offsets[row] as usize..self.offsets[row + 1] as usize]
-    }
-
-    fn degree(&self, row: u32) -> usize {
-        self.at(row).len()
-    }
-}
-
 /// The state of the tracing.
 struct Walk<'a> {
-    edges: &'a Edges,
     graph: &'a Incidence,
     used: Vec<bool>,
     curves: Curves,
@@ -101,32 +65,27 @@ struct Walk<'a> {
 impl Walk<'_> {
     /// Trace every curve that leaves `row` by an edge not used yet.
     fn from(&mut self, row: u32) {
-        for &edge in self.graph.at(row) {
-            if !self.used[edge as usize] {
-                self.follow(row, edge);
+        for &step in self.graph.of(row) {
+            if !self.used[step.1 as usize] {
+                self.follow(row, step);
             }
         }
     }
 
-    fn follow(&mut self, start: u32, mut edge: u32) {
-        let first = self.curves.indices.len();
-        let mut row = start;
-        loop {
+    fn follow(&mut self, start: u32, (mut row, mut edge): (u32, u32)) {
+        self.curves.indices.push(start);
+        self.used[edge as usize] = true;
+        while row != start
+            && let &[a, b] = self.graph.of(row)
+        {
             self.curves.indices.push(row);
+            (row, edge) = if a.1 == edge { b } else { a };
             self.used[edge as usize] = true;
-            let [i, j] = self.edges[edge as usize];
-            row = if i == row { j } else { i };
-            if row == start || self.graph.degree(row) != 2 {
-                break;
-            }
-            let &[a, b] = self.graph.at(row) else { unreachable!("the degree is two") };
-            edge = if a == edge { b } else { a };
         }
         let closed = row == start;
         if !closed {
             self.curves.indices.push(row);
         }
-        debug_assert!(self.curves.indices.len() > first);
         self.curves.offsets.push(self.curves.indices.len());
         self.curves.closed.push(closed);
     }
@@ -137,7 +96,7 @@ fn isolated(points: &[Point], graph: &Incidence) -> Vec<u32> {
     // Adding 0.0 makes one of the two zeros.
     let key = |row: u32| points[row as usize].map(|x| (x + 0.0).to_bits());
     let (lone, joined): (Vec<u32>, Vec<u32>) =
-        (0..points.len() as u32).partition(|&row| graph.degree(row) == 0);
+        (0..points.len() as u32).partition(|&row| graph.of(row).is_empty());
     let mut first = HashMap::new();
     for &row in &lone {
         first.entry(key(row)).or_insert(row);
@@ -178,7 +137,9 @@ fn orient_ring(points: &[Point], indices: &mut [u32]) {
 }
 
 impl Curves {
-    fn curve(&self, k: usize) -> &[u32] {
+    /// The rows along curve `k`.
+    #[must_use]
+    pub fn curve(&self, k: usize) -> &[u32] {
         &self.indices[self.offsets[k]..self.offsets[k + 1]]
     }
 

@@ -9,6 +9,7 @@ mod errors;
 mod interpolant;
 mod medial_axis;
 mod methods;
+mod nesting;
 mod trace;
 
 use pyo3::prelude::*;
@@ -33,6 +34,8 @@ mod _core {
         minimum_spanning_tree, nn_crust, one_step_crust, peel, rcgh, relative_neighborhood,
         sig_delaunay,
     };
+    #[pymodule_export]
+    use crate::nesting::shells;
     #[pymodule_export]
     use crate::trace::trace;
     use pyo3::prelude::*;

@@ -4,18 +4,15 @@ use super::bend::Bend;
 use super::disks::{Disk, Disks, disks};
 use crate::delaunay::Delaunay;
 use crate::error::Result;
+use crate::parts::{GRAIN, in_parts};
 use crate::point::{dot, sub};
 use crate::progress::Progress;
 use crate::space::segment::{Segment, push};
-use rayon::prelude::*;
 
 /// Centers farther apart than this part of the smaller radius are not linked: the axis may turn in between.
 const LINK: f64 = 1.0;
 /// Nor are those farther apart than this many times the samples that they belong to: rounding moved them.
 const LEAP: f64 = 32.0;
-/// Vertices that one task takes at a time.
-const GRAIN: usize = 1 << 12;
-
 /// The segments of the axis, in about the order of the vertices.
 ///
 /// # Errors
@@ -25,15 +22,13 @@ pub fn axis(
     bends: &[Option<Bend>],
     progress: &Progress,
 ) -> Result<Vec<Segment>> {
-    let starts: Vec<usize> = (0..bends.len()).step_by(GRAIN).collect();
-    let part = |start: usize| {
-        let end = (start + GRAIN).min(bends.len());
+    let parts = in_parts(bends.len(), GRAIN, progress, |vertices| {
+        let vertices = vertices.start as u32..vertices.end as u32;
         let mut segments = Vec::new();
-        Part::new(delaunay, bends, start as u32..end as u32).collect(&mut segments);
-        progress.advance(end - start)?;
-        Ok(segments)
-    };
-    Ok(starts.into_par_iter().map(part).collect::<Result<Vec<_>>>()?.concat())
+        Part::new(delaunay, bends, vertices).collect(&mut segments);
+        segments
+    })?;
+    Ok(parts.concat())
 }
 
 /// The part of the axis that successive vertices answer for.

@@ -14,17 +14,14 @@ use crate::adjacency::Adjacency;
 use crate::delaunay::Delaunay;
 use crate::edges::Edges;
 use crate::error::Result;
+use crate::parts::{GRAIN, in_parts};
 use crate::point::Point;
 use crate::progress::{Progress, Stage};
 use crate::space::tree::Tree;
 use axis::axis;
 pub use bend::Bend;
 use bend::bends;
-use rayon::prelude::*;
 use stencil::{Scale, stencil};
-
-/// Queries that one task takes at a time.
-const GRAIN: usize = 1 << 12;
 
 /// The smooth interpolant of edges, its medial axis, and the local feature size at the vertices.
 #[derive(Debug)]
@@ -50,7 +47,9 @@ impl Interpolant {
         progress.advance(delaunay.points().len())?;
         let axis = axis(delaunay, &bends, progress)?;
         let tree = Tree::new(&axis, scale.bounds);
-        let nearest = nearest(&tree, delaunay.points(), progress)?;
+        let places = delaunay.points();
+        let nearest = in_parts(places.len(), GRAIN, progress, |part| tree.nearest(&places[part]))?;
+        let nearest = nearest.concat();
         Ok(Self { curve, bends, tree, nearest })
     }
 
@@ -89,14 +88,4 @@ impl Interpolant {
         let to = |v: u32| self.tree.distance_to(self.nearest[v as usize].0, place);
         to(p).min(to(q))
     }
-}
-
-/// For each place the nearest segment and the distance, infinite if there is none.
-fn nearest(tree: &Tree, places: &[Point], progress: &Progress) -> Result<Vec<(u32, f64)>> {
-    let part = |places: &[Point]| {
-        let found = tree.nearest(places);
-        progress.advance(places.len())?;
-        Ok(found)
-    };
-    Ok(places.par_chunks(GRAIN).map(part).collect::<Result<Vec<_>>>()?.concat())
 }

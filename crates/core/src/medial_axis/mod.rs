@@ -10,6 +10,7 @@ use crate::error::Result;
 use crate::exact::circumcenter::{Center, circumcenter};
 use crate::exact::predicates::in_circle;
 use crate::exact::sign::ROUNDING;
+use crate::forest::Forest;
 use crate::parts::split;
 use crate::point::{Point, length, lexicographic, sub};
 use crate::progress::{Progress, Stage};
@@ -195,27 +196,11 @@ fn step_left(mesh: &Mesh<'_>, v: u32) -> (u32, bool) {
 /// For each triangle, the first of those on its circle that it is connected with.
 fn one_for_each_circle(mesh: &Mesh<'_>) -> Vec<u32> {
     let ties: Vec<[u32; 2]> = mesh.vertices().flat_map_iter(|p| mesh.ties(p)).collect();
-    let mut first: Vec<u32> = (0..mesh.circles.len() as u32).collect();
-    if ties.is_empty() {
-        return first;
+    let mut circles = Forest::new(mesh.circles.len());
+    for [a, b] in ties {
+        circles.join(a, b);
     }
-    for pair in ties {
-        let [a, b] = pair.map(|t| root(&mut first, t));
-        first[a.max(b) as usize] = a.min(b);
-    }
-    for t in 0..first.len() as u32 {
-        first[t as usize] = root(&mut first, t);
-    }
-    first
-}
-
-/// The smallest triangle of a set, halving the path to it.
-fn root(first: &mut [u32], mut t: u32) -> u32 {
-    while first[t as usize] != t {
-        first[t as usize] = first[first[t as usize] as usize];
-        t = first[t as usize];
-    }
-    t
+    circles.into_roots()
 }
 
 /// An edge of the axis: its samples as rows, the triangles to their left and right, and whether it is inside.

@@ -14,6 +14,7 @@ use crate::exact::constant::{Constant, fraction};
 use crate::exact::sign::{self, Form, Number};
 use crate::point::{Point, dot, sub};
 use crate::progress::{Progress, Stage};
+use crate::space::bounds::Bounds;
 use crate::space::boxes::Boxes;
 use rayon::prelude::*;
 use std::cmp::Ordering::{Equal, Greater};
@@ -85,7 +86,7 @@ pub fn is_beta_skeleton(
 /// The lune holds the disk on p q as a diameter, its circle too but for p and q. So the edges are
 /// in every Delaunay triangulation; but other points than the apexes may lie in the lune.
 fn lunes(delaunay: &Delaunay, beta: f64, progress: &Progress) -> Result<Edges> {
-    let (lune, boxes) = (Lune::new(beta), Boxes::new(delaunay.points()));
+    let (lune, boxes) = (Lune::new(beta), Boxes::new(delaunay.points(), |&p| Bounds::at(p)));
     select(delaunay, progress, || (), |(), edge| lune.is_empty(delaunay, &boxes, edge))
 }
 

@@ -11,10 +11,10 @@ use crate::edges::{Edges, rows, select, sort};
 use crate::error::{Error, Result};
 use crate::exact::angle_bound::AngleBound;
 use crate::forbidden_region::ForbiddenRegion;
+use crate::parts::in_parts;
 use crate::progress::{Progress, Stage};
 use crate::space::bounds::Bounds;
 use crate::space::boxes::Boxes;
-use rayon::prelude::*;
 use std::cell::RefCell;
 use std::cmp::Ordering::{self, Equal, Greater, Less};
 
@@ -57,7 +57,7 @@ pub(super) fn gamma_of(
         Equal => select_closed(delaunay, progress, keep),
         Less => {
             let regions = [(a, b), (b, a)].map(|(left, right)| ForbiddenRegion { left, right });
-            let boxes = Boxes::new(delaunay.points());
+            let boxes = Boxes::new(delaunay.points(), |&p| Bounds::at(p));
             Pairs { delaunay, regions, boxes }.select(progress)
         }
     }
@@ -92,16 +92,11 @@ impl Pairs<'_> {
     fn select(&self, progress: &Progress) -> Result<Edges> {
         /// Vertices that one task takes at a time: early ones have more pairs before them.
         const GRAIN: usize = 64;
-        let count = self.delaunay.points().len() as u32;
-        progress.enter(Stage::Select, count as usize)?;
-        let starts: Vec<u32> = (0..count).step_by(GRAIN).collect();
-        let part = |start: u32| {
-            let end = (start + GRAIN as u32).min(count);
-            let edges = (start..end).flat_map(|p| self.edges_from(p)).collect();
-            progress.advance((end - start) as usize)?;
-            Ok(edges)
-        };
-        let parts = starts.into_par_iter().map(part).collect::<Result<Vec<Edges>>>()?;
+        let count = self.delaunay.points().len();
+        progress.enter(Stage::Select, count)?;
+        let parts = in_parts(count, GRAIN, progress, |vertices| {
+            vertices.flat_map(|p| self.edges_from(p as u32)).collect()
+        })?;
         Ok(sort(&parts, self.delaunay.input_len()))
     }
 

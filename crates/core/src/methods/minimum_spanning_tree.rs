@@ -7,6 +7,7 @@ use super::length::Ranked;
 use crate::delaunay::Delaunay;
 use crate::edges::{Edges, rows, sort};
 use crate::error::Result;
+use crate::forest::Forest;
 use crate::progress::{Progress, Stage};
 use rayon::prelude::*;
 
@@ -30,31 +31,4 @@ pub fn minimum_spanning_tree(delaunay: &Delaunay, progress: &Progress) -> Result
     progress.advance(0)?;
     let tree = candidates.iter().map(|edge| rows(delaunay, edge.p, edge.q)).collect();
     Ok(sort(&[tree], delaunay.input_len()))
-}
-
-/// Trees as disjoint sets of vertices.
-struct Forest {
-    parents: Vec<u32>,
-}
-
-impl Forest {
-    fn new(vertices: usize) -> Self {
-        Self { parents: (0..vertices as u32).collect() }
-    }
-
-    /// Join the trees of `p` and `q`; were they different ones?
-    fn join(&mut self, p: u32, q: u32) -> bool {
-        let (p, q) = (self.root(p), self.root(q));
-        self.parents[p as usize] = q;
-        p != q
-    }
-
-    fn root(&mut self, mut vertex: u32) -> u32 {
-        while self.parents[vertex as usize] != vertex {
-            let parent = self.parents[vertex as usize];
-            self.parents[vertex as usize] = self.parents[parent as usize];
-            vertex = self.parents[vertex as usize];
-        }
-        vertex
-    }
 }

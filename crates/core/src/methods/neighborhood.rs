@@ -5,6 +5,7 @@ use crate::cocircular::diagonals;
 use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, rows, sort};
 use crate::error::Result;
+use crate::parts::{GRAIN, in_parts};
 use crate::progress::{Progress, Stage};
 use rayon::prelude::*;
 use std::cmp::Ordering::Equal;
@@ -73,21 +74,12 @@ pub(super) fn collect<I: IntoIterator<Item = u32>>(
     progress: &Progress,
     ends: impl Fn(u32) -> I + Sync,
 ) -> Result<Edges> {
-    /// Vertices that one task takes at a time.
-    const GRAIN: usize = 1 << 12;
     let count = delaunay.points().len();
     progress.enter(Stage::Select, count)?;
-    let part = |start: usize| {
-        let end = (start + GRAIN).min(count);
-        let mut edges = Edges::new();
-        for p in start as u32..end as u32 {
-            edges.extend(ends(p).into_iter().map(|q| rows(delaunay, p, q)));
-        }
-        progress.advance(end - start)?;
-        Ok(edges)
-    };
-    let starts: Vec<usize> = (0..count).step_by(GRAIN).collect();
-    let parts = starts.into_par_iter().map(part).collect::<Result<Vec<Edges>>>()?;
+    let parts = in_parts(count, GRAIN, progress, |vertices| {
+        let from = |p| ends(p).into_iter().map(move |q| rows(delaunay, p, q));
+        vertices.flat_map(|p| from(p as u32)).collect()
+    })?;
     let mut edges = sort(&parts, delaunay.input_len());
     edges.dedup();
     Ok(edges)

@@ -19,12 +19,17 @@ impl Bounds {
     /// Around nothing.
     pub const EMPTY: Self = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
 
+    /// Around the point `p` alone.
+    #[must_use]
+    pub fn at(p: Point) -> Self {
+        Self { low: p, high: p }
+    }
+
     /// The smallest one around `points`.
     #[must_use]
     pub fn of(points: &[Point]) -> Self {
-        let around = |points: &[Point]| {
-            points.iter().fold(Self::EMPTY, |b, &p| b.join(Self { low: p, high: p }))
-        };
+        let around =
+            |points: &[Point]| points.iter().fold(Self::EMPTY, |b, &p| b.join(Self::at(p)));
         if points.len() <= GRAIN {
             return around(points);
         }
@@ -72,7 +77,7 @@ impl Bounds {
     #[inline]
     #[must_use]
     pub fn square_to(&self, p: Point) -> f64 {
-        self.least_square(&Self { low: p, high: p })
+        self.least_square(&Self::at(p))
     }
 
     /// The least squared distance between a place in this box and a place in the other.

@@ -1,86 +1,107 @@
-//! A hierarchy of boxes around the vertices, to find those in a region.
+//! A hierarchy of boxes around items, to find those in a region, or near to a place.
 //!
-//! The vertices lie along a space-filling curve, so those of successive numbers lie close together,
-//! and the tree needs no order of its own: a node is a range of vertices and their bounding box.
+//! The packed tree of I. Kamel and C. Faloutsos, "On Packing R-trees" (1993): the items lie along a space-filling curve, so
+//! those of successive numbers lie close together, and a node is a range of items and the box around them. Linear time.
 
-use crate::point::Point;
 use crate::space::bounds::Bounds;
+use rayon::prelude::*;
 use std::ops::Range;
 
-/// Vertices in a leaf.
-const LEAF: usize = 8;
-/// Nodes under a node.
-const FAN: usize = 4;
+/// Items in a leaf, and nodes under a node.
+const FAN: usize = 8;
 
 /// The hierarchy.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Boxes {
-    vertices: u32,
-    /// The leaves first, a single root last; empty without vertices.
+    items: u32,
+    /// The leaves first, a single root last; empty without items.
     levels: Vec<Vec<Bounds>>,
 }
 
 impl Boxes {
-    /// The boxes around `points`.
+    /// The boxes around `items`, of which each is in the box that `around` gives.
     #[must_use]
-    pub fn new(points: &[Point]) -> Self {
-        let mut levels: Vec<Vec<Bounds>> = vec![points.chunks(LEAF).map(Bounds::of).collect()];
+    pub fn new<T: Sync>(items: &[T], around: impl Fn(&T) -> Bounds + Sync) -> Self {
+        let leaf = |items: &[T]| items.iter().map(&around).fold(Bounds::EMPTY, Bounds::join);
+        let node = |nodes: &[Bounds]| nodes.iter().copied().fold(Bounds::EMPTY, Bounds::join);
+        let mut levels: Vec<Vec<Bounds>> = vec![items.par_chunks(FAN).map(leaf).collect()];
         while let Some(below) = levels.last().filter(|level| level.len() > 1) {
-            let join = |nodes: &[Bounds]| nodes.iter().fold(Bounds::EMPTY, |a, &b| a.join(b));
-            levels.push(below.chunks(FAN).map(join).collect());
+            levels.push(below.par_chunks(FAN).map(node).collect());
         }
-        Self { vertices: points.len() as u32, levels }
+        Self { items: items.len() as u32, levels }
     }
 
-    /// Visit the vertices of all boxes that `enter` admits, until `visit` gives true; was there
-    /// one?
+    /// The number of levels.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.levels.len()
+    }
+
+    /// The boxes of a level; level 0 are the leaves.
+    #[inline]
+    #[must_use]
+    pub fn level(&self, level: usize) -> &[Bounds] {
+        &self.levels[level]
+    }
+
+    /// What is right under a node: nodes of the level below, or the items of a leaf.
+    #[inline]
+    #[must_use]
+    pub fn children(&self, level: usize, node: u32) -> Range<u32> {
+        let below = if level == 0 { self.items } else { self.levels[level - 1].len() as u32 };
+        let first = FAN as u32 * node;
+        first..(first + FAN as u32).min(below)
+    }
+
+    /// Visit the items of all boxes that `enter` admits, until `visit` gives true; was there one?
     ///
-    /// `enter` sees a box and the range of its vertices.
+    /// `enter` sees a box and the range of its items.
     pub fn any(
         &self,
         enter: &mut impl FnMut(&Bounds, Range<u32>) -> bool,
         visit: &mut impl FnMut(u32) -> bool,
     ) -> bool {
-        self.vertices > 0 && self.any_below(self.levels.len() - 1, 0, enter, visit)
+        self.items > 0 && self.any_below(self.levels.len() - 1, 0, enter, visit)
     }
 
     fn any_below(
         &self,
         level: usize,
-        node: usize,
+        node: u32,
         enter: &mut impl FnMut(&Bounds, Range<u32>) -> bool,
         visit: &mut impl FnMut(u32) -> bool,
     ) -> bool {
-        let range = self.range(level, node);
-        if !enter(&self.levels[level][node], range.clone()) {
+        if !enter(&self.levels[level][node as usize], self.range(level, node)) {
             return false;
         }
+        let mut below = self.children(level, node);
         if level == 0 {
-            return range.into_iter().any(visit);
+            return below.any(visit);
         }
-        let end = (FAN * (node + 1)).min(self.levels[level - 1].len());
-        (FAN * node..end).any(|below| self.any_below(level - 1, below, enter, visit))
+        below.any(|child| self.any_below(level - 1, child, enter, visit))
     }
 
-    fn range(&self, level: usize, node: usize) -> Range<u32> {
-        let width = LEAF * FAN.pow(level as u32);
-        let end = (width * (node + 1)).min(self.vertices as usize);
-        (width * node) as u32..end as u32
+    /// The items under a node.
+    fn range(&self, level: usize, node: u32) -> Range<u32> {
+        let width = FAN.pow(level as u32 + 1);
+        let end = (width * (node as usize + 1)).min(self.items as usize);
+        (width * node as usize) as u32..end as u32
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::point::Point;
 
     #[test]
-    fn every_vertex_is_visited_once_and_lies_in_all_its_boxes() {
+    fn every_item_is_visited_once_and_lies_in_all_its_boxes() {
         for count in [0usize, 1, 8, 9, 33, 1000] {
             let points: Vec<Point> = (0..count).map(|k| [(k * 7 % 31) as f64, k as f64]).collect();
             let mut seen = Vec::new();
             let inside =
                 |b: &Bounds, p: Point| (0..2).all(|a| b.low[a] <= p[a] && p[a] <= b.high[a]);
-            let found = Boxes::new(&points).any(
+            let found = Boxes::new(&points, |&p| Bounds::at(p)).any(
                 &mut |b, mut range| range.all(|k| inside(b, points[k as usize])),
                 &mut |k| {
                     seen.push(k as usize);

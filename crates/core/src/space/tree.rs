@@ -1,16 +1,11 @@
-//! Segments in a tree of boxes, to find the nearest.
-//!
-//! The packed tree of I. Kamel and C. Faloutsos, "On Packing R-trees" (1993): segments sorted along a Hilbert curve, each box
-//! over `FAN` successive ones. Built in linear time after the sort.
+//! Segments sorted along a Hilbert curve, with boxes around them, to find the nearest.
 
 use crate::point::{Point, dot, sub};
 use crate::space::bounds::Bounds;
+use crate::space::boxes::Boxes;
 use crate::space::segment::{Segment, push};
 use rayon::prelude::*;
-use std::ops::Range;
 
-/// Children of a node.
-const FAN: usize = 8;
 /// Places that go down the tree together.
 const RUN: usize = 64;
 /// The level down to which they do; there boxes are about as large as the runs.
@@ -51,25 +46,15 @@ impl Line {
 #[derive(Debug, Default)]
 pub struct Tree {
     lines: Vec<Line>,
-    /// The boxes over segments, over those boxes, and so on up to one.
-    levels: Vec<Vec<Bounds>>,
+    boxes: Boxes,
 }
 
 impl Tree {
     /// A tree of `segments`. Queries are within `bounds`.
     pub fn new(segments: &[Segment], bounds: Bounds) -> Self {
         let segments = joined(segments, &order(segments, bounds));
-        let mut levels = Vec::new();
-        let mut boxes: Vec<Bounds> = segments.par_chunks(FAN).map(bounds_of).collect();
-        while boxes.len() > 1 {
-            let above = boxes
-                .par_chunks(FAN)
-                .map(|part| part.iter().copied().fold(Bounds::EMPTY, Bounds::join))
-                .collect();
-            levels.push(std::mem::replace(&mut boxes, above));
-        }
-        levels.push(boxes);
-        Self { lines: segments.par_iter().map(Line::new).collect(), levels }
+        let boxes = Boxes::new(&segments, |segment| Bounds::of(&segment.ends));
+        Self { lines: segments.par_iter().map(Line::new).collect(), boxes }
     }
 
     /// The distance from `p` to a segment, infinite if there is none.
@@ -97,23 +82,17 @@ impl Tree {
     /// The boxes of a middle level that may hold the segment nearest to one of the places.
     fn boxes_near(&self, places: &[Point]) -> (usize, Vec<u32>) {
         let around = Bounds::of(places);
-        let (mut level, mut near) = (self.levels.len() - 1, vec![0]);
+        let (mut level, mut near) = (self.boxes.height() - 1, vec![0]);
         while level > MIDDLE {
-            level -= 1;
-            let boxes = &self.levels[level];
-            let children = || near.iter().flat_map(|&node| self.children(level, node));
+            let boxes = self.boxes.level(level - 1);
+            let children = || near.iter().flat_map(|&node| self.boxes.children(level, node));
             let farthest = children().map(|k| boxes[k as usize].most_square(&around));
             let most = farthest.fold(f64::INFINITY, f64::min);
             near =
                 children().filter(|&k| boxes[k as usize].least_square(&around) <= most).collect();
+            level -= 1;
         }
         (level, near)
-    }
-
-    /// The boxes of a level under a box of the level above.
-    fn children(&self, level: usize, node: u32) -> Range<u32> {
-        let first = FAN as u32 * node;
-        first..(first + FAN as u32).min(self.levels[level].len() as u32)
     }
 }
 
@@ -143,13 +122,12 @@ impl Search<'_> {
             if node.square >= best * (1.0 - GAIN) {
                 continue;
             }
+            let children = self.tree.boxes.children(node.level, node.number);
             if node.level > 0 {
-                let children = self.tree.children(node.level - 1, node.number);
                 self.push(p, best, node.level - 1, children);
                 continue;
             }
-            let first = FAN * node.number as usize;
-            let end = (first + FAN).min(self.tree.lines.len());
+            let (first, end) = (children.start as usize, children.end as usize);
             for (k, line) in self.tree.lines[first..end].iter().enumerate() {
                 let square = line.square(p);
                 if square < best {
@@ -161,10 +139,11 @@ impl Search<'_> {
     }
 
     /// Push boxes that are near enough, the nearest last.
-    fn push(&mut self, p: Point, best: f64, level: usize, boxes: impl Iterator<Item = u32>) {
+    fn push(&mut self, p: Point, best: f64, level: usize, nodes: impl Iterator<Item = u32>) {
         let start = self.stack.len();
-        for number in boxes {
-            let square = self.tree.levels[level][number as usize].square_to(p);
+        let boxes = self.tree.boxes.level(level);
+        for number in nodes {
+            let square = boxes[number as usize].square_to(p);
             if square < best * (1.0 - GAIN) {
                 self.stack.push(Node { square, level, number });
             }
@@ -173,10 +152,6 @@ impl Search<'_> {
             self.stack[start..].sort_unstable_by(|a, b| b.square.total_cmp(&a.square));
         }
     }
-}
-
-fn bounds_of(segments: &[Segment]) -> Bounds {
-    segments.iter().map(|segment| Bounds::of(&segment.ends)).fold(Bounds::EMPTY, Bounds::join)
 }
 
 /// The numbers of the segments along a Hilbert curve, which leaves no gaps as a Z-order curve does: its boxes overlap half as often.
