@@ -39,8 +39,9 @@ fn main() {
     let shared = |tests: usize| {
         best(|| {
             let holds = |k: usize| {
-                let base = Base::new(at(k / 3), at(k / 3 + 7));
-                base.in_circle(&base.sight(at(k + 77)), &base.sight(at(k + 777)))
+                let base = Base { a: at(k / 3), b: at(k / 3 + 7) };
+                let (c, d) = (at(k + 77), at(k + 777));
+                base.in_circle([c, d], [&base.sight(c), &base.sight(d)])
             };
             (0..tests).filter(|&k| holds(k)).count()
         })

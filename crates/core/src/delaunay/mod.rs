@@ -1,19 +1,22 @@
 //! The Delaunay triangulation of distinct points, exact and the same on any number of threads.
 
 mod divide;
-
+mod hull;
+mod leaf;
 mod rings;
 mod sanity;
+mod slots;
 mod stars;
 mod triangles;
+mod zip;
 
 use crate::error::{Error, Result};
 use crate::point::Point;
 use crate::progress::{Progress, Stage};
 use crate::space::order::{Order, order};
-use divide::{SLOTS, Vertices, triangulate};
-use rings::HalfEdge;
+use divide::{Vertices, triangulate};
 pub use rings::NONE;
+use slots::{HalfEdge, SLOTS, Slots};
 pub use stars::{Star, Stars};
 
 /// The most points that one triangulation can hold: half-edges are numbered in 32 bits.
@@ -61,7 +64,7 @@ impl Delaunay {
             return Err(Error::TooManyPoints { count: points.len(), limit: MOST_POINTS });
         }
         let sorted = order(points, progress)?;
-        let (stars, hull) = stars(&sorted, progress)?;
+        let (stars, hull) = stars(&sorted, leaf::MOST, progress)?;
         let Order { points: vertices, rows, duplicates, scale, .. } = sorted;
         Ok(Self { points: vertices, rows, duplicates, scale, input: points.len(), hull, stars })
     }
@@ -141,16 +144,20 @@ impl Delaunay {
 }
 
 /// Triangulate the sorted vertices; return their stars and the hull.
-fn stars(sorted: &Order, progress: &Progress) -> Result<(Stars, Vec<u32>)> {
-    let count = sorted.points.len();
+fn stars(sorted: &Order, leaf: usize, progress: &Progress) -> Result<(Stars, Vec<u32>)> {
+    let Order { points, codes, .. } = sorted;
+    let count = points.len();
     progress.enter(Stage::Triangulate, count)?;
-    if count == 0 {
-        return Stars::collect(&[], 0, NONE, progress);
-    }
-    let vertices = Vertices { points: &sorted.points, codes: &sorted.codes };
     let mut slots = vec![HalfEdge::default(); SLOTS * count];
-    let (extremes, _) = triangulate(vertices, (0, count), &mut slots, progress)?;
-    Stars::collect(&slots, count, extremes.left.edge, progress)
+    let mut first = vec![0; count];
+    let mut offsets = vec![0; count + 1];
+    let mut hull = NONE;
+    if count > 0 {
+        let mut graph = Slots::new(points, 0, &mut slots, [&mut first, &mut offsets[1..]]);
+        let vertices = Vertices { points, codes, leaf };
+        hull = triangulate(vertices, &mut graph, progress)?.left.edge;
+    }
+    Stars::collect(&slots, first, offsets, hull, progress)
 }
 
 #[cfg(test)]

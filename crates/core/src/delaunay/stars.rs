@@ -3,10 +3,11 @@
 //! This is all that selection needs: a wedge, two successive neighbors of a vertex, is a triangle, and its
 //! circumcenter a corner of the vertex's Voronoi cell.
 
-use super::rings::{self, HalfEdge, NONE};
+use super::rings::{NONE, Rings};
+use super::slots::HalfEdge;
 use crate::error::Result;
 use crate::parts::split;
-use crate::progress::{PACE, Progress, Stage};
+use crate::progress::{Progress, Stage};
 use rayon::prelude::*;
 
 /// Vertices that one task takes at a time.
@@ -81,31 +82,39 @@ impl<'a> Star<'a> {
 }
 
 impl Stars {
-    /// Collect the stars, and the hull, of the finished graph of `vertices` vertices in `slots`.
+    /// Collect the stars of a finished graph in `slots`, and its hull.
     ///
-    /// `hull` is a half-edge of the hull, the outside to its right, or `NONE` if there are no edges.
+    /// `first` holds a half-edge from each vertex, `offsets` a 0 and then the number of half-edges from each vertex. `hull` is a
+    /// half-edge of the hull, the outside to its right, or `NONE` if there are no edges.
     ///
     /// # Errors
     /// A cancelled `progress`.
     pub fn collect(
         slots: &[HalfEdge],
-        vertices: usize,
+        mut first: Vec<u32>,
+        mut offsets: Vec<u32>,
         hull: u32,
         progress: &Progress,
     ) -> Result<(Self, Vec<u32>)> {
-        progress.enter(Stage::Stars, vertices)?;
-        let (mut first, offsets) = first_half_edges(slots, vertices, progress)?;
+        progress.enter(Stage::Stars, first.len())?;
+        let mut end = 0;
+        for offset in &mut offsets {
+            end += *offset;
+            *offset = end;
+        }
         let hull = walk_hull(slots, hull, &mut first);
-        let mut on_hull = vec![false; vertices];
+        let mut on_hull = vec![false; first.len()];
         for &vertex in &hull {
             on_hull[vertex as usize] = true;
         }
-        let mut neighbors = vec![0; offsets[vertices] as usize];
-        let parts = split(&mut neighbors, grains(&offsets));
-        parts.into_par_iter().zip(first.par_chunks(GRAIN)).try_for_each(|(part, first)| {
-            collect_part(slots, first, part);
-            progress.advance(first.len())
-        })?;
+        let mut neighbors = vec![0; end as usize];
+        if end > 0 {
+            let parts = split(&mut neighbors, grains(&offsets));
+            parts.into_par_iter().zip(first.par_chunks(GRAIN)).try_for_each(|(part, first)| {
+                collect_part(slots, first, part);
+                progress.advance(first.len())
+            })?;
+        }
         Ok((Self { offsets, neighbors, on_hull }, hull))
     }
 
@@ -157,38 +166,15 @@ impl Stars {
     }
 }
 
-/// A half-edge that starts at each vertex, `NONE` at a lone vertex, and where each vertex's star is to start.
-fn first_half_edges(
-    slots: &[HalfEdge],
-    vertices: usize,
-    progress: &Progress,
-) -> Result<(Vec<u32>, Vec<u32>)> {
-    let mut first = vec![NONE; vertices];
-    let mut offsets = vec![0; vertices + 1];
-    for e in 0..slots.len() as u32 {
-        if (e as usize).is_multiple_of(PACE) {
-            progress.advance(0)?;
-        }
-        if let Some(vertex) = rings::origin(slots, e) {
-            first[vertex as usize] = e;
-            offsets[vertex as usize + 1] += 1;
-        }
-    }
-    for vertex in 0..vertices {
-        offsets[vertex + 1] += offsets[vertex];
-    }
-    Ok((first, offsets))
-}
-
 /// The vertices of the hull, counter-clockwise; let each one's star start with the next.
 fn walk_hull(slots: &[HalfEdge], start: u32, first: &mut [u32]) -> Vec<u32> {
     let mut hull = Vec::new();
     let mut e = start;
     while e != NONE {
-        let vertex = rings::destination(slots, e ^ 1);
+        let vertex = slots.origin(e);
         hull.push(vertex);
         first[vertex as usize] = e;
-        e = rings::next(slots, e ^ 1);
+        e = slots.next(e ^ 1);
         if e == start {
             break;
         }
@@ -203,15 +189,15 @@ fn grains(offsets: &[u32]) -> impl Iterator<Item = usize> {
     (0..last).step_by(GRAIN).map(move |start| (end(start) - offsets[start]) as usize)
 }
 
-/// Write the stars of the vertices with the half-edges `first` one after another.
+/// Write the stars of the vertices with the half-edges `first`, one each, one after another.
 fn collect_part(slots: &[HalfEdge], first: &[u32], part: &mut [u32]) {
     let mut end = part.iter_mut();
-    for &start in first.iter().filter(|&&start| start != NONE) {
+    for &start in first {
         let mut e = start;
         loop {
             let neighbor = end.next().expect("as many neighbors as half-edges");
-            *neighbor = rings::destination(slots, e);
-            e = rings::next(slots, e);
+            *neighbor = slots.destination(e);
+            e = slots.next(e);
             if e == start {
                 break;
             }

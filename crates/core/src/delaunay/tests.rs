@@ -1,6 +1,7 @@
-use super::Delaunay;
+use super::{Delaunay, leaf, stars};
 use crate::point::Point;
 use crate::progress::Progress;
+use crate::space::order::order;
 use std::collections::BTreeSet;
 
 /// A small deterministic generator (xorshift), enough to scatter points.
@@ -118,6 +119,29 @@ fn close_clusters_that_share_a_code_are_triangulated() {
             *p = p.map(|x| x + 2f64.powi(-49));
         }
         triangulate(&points);
+    }
+}
+
+#[test]
+fn a_leaf_too_small_for_a_cell_leaves_it_to_its_halves() {
+    let mut scatter = Scatter(11);
+    for points in [scatter.points(3000), scatter.lattice(700, 30.0), scatter.lattice(900, 40.0)] {
+        let sorted = order(&points, &Progress::default()).expect("points within range");
+        let with = |leaf| {
+            let (stars, hull) = stars(&sorted, leaf, &Progress::default()).expect("no one cancels");
+            // Where a star starts depends on the memory; its round does not.
+            let star = |v| {
+                let mut neighbors = stars.star(v).neighbors.to_vec();
+                let smallest = (0..neighbors.len()).min_by_key(|&k| neighbors[k]);
+                neighbors.rotate_left(smallest.unwrap_or(0));
+                neighbors
+            };
+            ((0..sorted.points.len() as u32).map(star).collect::<Vec<_>>(), hull)
+        };
+        let whole = with(leaf::MOST);
+        for leaf in [1, 2, 3, 8, 100, 2000] {
+            assert_eq!(whole, with(leaf));
+        }
     }
 }
 

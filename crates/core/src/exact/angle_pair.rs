@@ -1,8 +1,9 @@
 //! Questions about the two angles opposite to an edge, as polynomials in their cotangents.
 
+use crate::exact::angle::Angle;
 use crate::exact::constant::{Constant, fraction};
 use crate::exact::sign::{self, Form, Number};
-use crate::point::{Point, sub};
+use crate::point::Point;
 use num_bigint::BigInt;
 use std::cmp::Ordering::Less;
 
@@ -51,28 +52,6 @@ impl AnglePair {
             return value > 0.0;
         }
         sign::sign(self, p, &[q, left, right]) != Less
-    }
-}
-
-/// An angle as the dot and cross product of its sides; the cotangent is their quotient.
-#[derive(Debug, Clone, Copy)]
-pub struct Angle {
-    /// The dot product.
-    pub dot: f64,
-    /// The cross product.
-    pub cross: f64,
-    /// A bound on the size of both, which their rounding errors are relative to.
-    pub size: f64,
-}
-
-impl Angle {
-    /// The angle at `apex` from `p` to `q`.
-    #[inline]
-    #[must_use]
-    pub fn at(apex: Point, p: Point, q: Point) -> Self {
-        let ([a, b], [c, d]) = (sub(p, apex), sub(q, apex));
-        let size = (a.abs() + b.abs()) * (c.abs() + d.abs());
-        Self { dot: a * c + b * d, cross: a * d - b * c, size }
     }
 }
 

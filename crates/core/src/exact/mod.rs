@@ -1,5 +1,6 @@
 //! Exact decisions: the sign of a polynomial in the coordinates, and what is built on it.
 
+pub mod angle;
 pub mod angle_bound;
 pub mod angle_pair;
 pub mod circumcenter;

@@ -5,8 +5,9 @@
 //! sections 4.3 and 4.4; the expansions are the crate `robust`'s. These are exact unless a product
 //! underflows, so coordinates that small take the integers of [`sign`](crate::exact::sign) instead.
 
+use crate::exact::angle::{Angle, mixed_sign};
 use crate::exact::sign::{Form, Number, ROUNDING, exact_sign, small_differences};
-use crate::point::{Point, cross, dot, sub};
+use crate::point::{Point, dot, sub};
 use ethnum::I256;
 use std::cmp::Ordering::{self, Greater};
 
@@ -52,69 +53,44 @@ pub fn in_circle(a: Point, b: Point, c: Point, d: Point) -> bool {
     exact_in_circle(a, b, c, d)
 }
 
-/// The tests of many points against one directed base, a → b, with what they share computed once.
+/// The tests of many points against one directed base, a → b, each point looked at once.
 ///
-/// Everything is relative to a; the determinants, and so the bounds, are those of [`orientation`] and [`in_circle`].
+/// The circles through a and b are a pencil, and the angle that a point sees the base under tells which of them it is on.
 #[derive(Debug, Clone, Copy)]
 pub struct Base {
-    a: Point,
-    b: Point,
-    vector: Point,
-    lift: f64,
-}
-
-/// A point as a [`Base`] sees it.
-#[derive(Debug, Clone, Copy)]
-pub struct Sighting {
-    point: Point,
-    vector: Point,
-    lift: f64,
-    /// The cross product of the base and the vector.
-    turn: f64,
+    /// Where the base starts.
+    pub a: Point,
+    /// Where it ends.
+    pub b: Point,
 }
 
 impl Base {
-    /// The base from `a` to `b`.
+    /// The angle that `point` sees the base under.
     #[inline]
     #[must_use]
-    pub fn new(a: Point, b: Point) -> Self {
-        let vector = sub(b, a);
-        Self { a, b, vector, lift: dot(vector, vector) }
+    pub fn sight(&self, point: Point) -> Angle {
+        Angle::at(point, self.a, self.b)
     }
 
-    /// Look at `point`.
+    /// Is `c`, which sees the base under `angle`, strictly to its left?
     #[inline]
     #[must_use]
-    pub fn sight(&self, point: Point) -> Sighting {
-        let vector = sub(point, self.a);
-        Sighting { point, vector, lift: dot(vector, vector), turn: cross(self.vector, vector) }
-    }
-
-    /// Is the point strictly to the left of the base?
-    #[inline]
-    #[must_use]
-    pub fn is_left(&self, c: &Sighting) -> bool {
-        let (u, v) = (self.vector, c.vector);
-        let size = (u[0] * v[1]).abs() + (u[1] * v[0]).abs();
-        if c.turn.abs() > ORIENT_BOUND * size + UNDERFLOW {
-            return c.turn > 0.0;
-        }
-        exact_orientation(self.a, self.b, c.point) == Greater
+    pub fn is_left(&self, c: Point, angle: &Angle) -> bool {
+        angle.turn().unwrap_or_else(|| exact_orientation(self.a, self.b, c)) == Greater
     }
 
     /// Is `d` strictly inside the circle through the base and `c`, which is to its left?
+    ///
+    /// On the left a larger angle, so a smaller cotangent, is farther inside; times the cross product of c's angle, which is
+    /// positive, the difference of cotangents is the in-circle determinant, whichever side d is on.
     #[inline]
     #[must_use]
-    pub fn in_circle(&self, c: &Sighting, d: &Sighting) -> bool {
-        let across = cross(c.vector, d.vector);
-        let determinant = c.lift * d.turn - d.lift * c.turn - self.lift * across;
-        // Of two products in a minor the sizes sum to no more than the root of the product of two lifts, which is no more
-        // than their mean: this bounds Shewchuk's permanent at a third of its cost.
-        let permanent = self.lift * (c.lift + d.lift) + c.lift * d.lift;
-        if determinant.abs() > IN_CIRCLE_BOUND * 1.001 * permanent + UNDERFLOW {
-            return determinant > 0.0;
+    pub fn in_circle(&self, [c, d]: [Point; 2], [at_c, at_d]: [&Angle; 2]) -> bool {
+        let determinant = at_c.dot * at_d.cross - at_d.dot * at_c.cross;
+        match mixed_sign(determinant, at_c, at_d) {
+            Some(sign) => sign == Greater,
+            None => exact_in_circle(self.a, self.b, c, d),
         }
-        exact_in_circle(self.a, self.b, c.point, d.point)
     }
 }
 
@@ -124,6 +100,7 @@ fn is_moderate(x: f64) -> bool {
 }
 
 #[cold]
+#[inline(never)]
 fn exact_orientation(a: Point, b: Point, c: Point) -> Ordering {
     if [a, b, c].iter().flatten().copied().all(is_moderate) {
         let sign = robust::orient2d(coord(a), coord(b), coord(c));
@@ -134,6 +111,7 @@ fn exact_orientation(a: Point, b: Point, c: Point) -> Ordering {
 }
 
 #[cold]
+#[inline(never)]
 fn exact_in_circle(a: Point, b: Point, c: Point, d: Point) -> bool {
     // Ties come in crowds, on lattices and circles, where integers are quicker than expansions.
     if let Some((at, bits)) = small_differences(d, &[a, b, c]) {

@@ -9,7 +9,7 @@ use super::one_step_crust;
 use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, select};
 use crate::error::Result;
-use crate::exact::angle_pair::Angle;
+use crate::exact::angle::Angle;
 use crate::exact::pencil::{Circle, Disk, Pencil, Vertex};
 use crate::exact::sign::{self, Form, Number};
 use crate::point::{Point, cross, dot, sub};

@@ -5,7 +5,7 @@
 use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, select};
 use crate::error::Result;
-use crate::exact::angle_pair::Angle;
+use crate::exact::angle::{Angle, mixed_sign};
 use crate::exact::sign::{self, Form, Number};
 use crate::point::Point;
 use crate::progress::Progress;
@@ -44,11 +44,8 @@ pub(super) fn is_in(delaunay: &Delaunay, edge: Edge) -> bool {
 fn sum_is_at_most_90(p: Point, q: Point, left: Point, right: Point) -> bool {
     let (a, b) = (Angle::at(left, p, q), Angle::at(right, q, p));
     let difference = a.dot * b.dot - a.cross * b.cross;
-    let bound = 16.0 * f64::EPSILON * (a.size * b.size);
-    if difference.abs() > bound + 1e-150 {
-        return difference > 0.0;
-    }
-    sign::exact_sign(&CotangentProduct, p, &[q, left, right]) != Less
+    let exact = || sign::exact_sign(&CotangentProduct, p, &[q, left, right]);
+    mixed_sign(difference, &a, &b).unwrap_or_else(exact) != Less
 }
 
 /// cot · cot − 1 of the angles at two points opposite to the edge from the origin to `q`, times two cross products.
