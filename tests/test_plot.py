@@ -21,7 +21,7 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from crustline import plot
-from crustline.curves import trace
+from crustline.curves import Curves, trace
 from crustline.delaunay import Delaunay
 from crustline.errors import InputError, MissingExtraError
 from crustline.methods import crust
@@ -29,6 +29,7 @@ from crustline.plot.axes import CHUNK
 from crustline.plot.certificate import MARKERS
 from crustline.plot.clip import clipped
 from crustline.plot.picture import SUFFIXES
+from crustline.points import Points
 
 Floats = NDArray[np.float64]
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
@@ -143,12 +144,8 @@ def test_curves_draw_every_edge_once_in_the_color_of_its_kind() -> None:
 def test_long_curves_are_drawn_in_pieces_without_a_gap() -> None:
     n = 2 * CHUNK + 7
     points = ring(n)
-    curves: Any = SimpleNamespace(
-        points=points,
-        indices=np.arange(n),
-        offsets=np.array([0, n]),
-        closed=np.array([True]),
-        isolated=np.zeros(0, np.int64),
+    curves = Curves(
+        Points(points), np.arange(n), np.array([0, n]), np.array([True]), np.zeros(0, np.int64)
     )
     segments = drawn(plot.plot_curves(curves, points=False), plot.BLUE)
     np.testing.assert_array_equal(segments[:, 0], points)

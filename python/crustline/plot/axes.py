@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crustline.arrays import FloatArray, IntArray
+from crustline.arrays import FloatArray
 from crustline.errors import missing_extra
+from crustline.path import CLOSE, LINE, MOVE, Path
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -72,33 +73,32 @@ def draw_segments(
     zorder: float = 2,
 ) -> Axes:
     """Draw segments (m, 2, 2)."""
-    starts = np.arange(0, 2 * len(segments), 2)
-    return stroke(ax, segments.reshape(-1, 2), starts, color, width, label=label, zorder=zorder)
+    path = Path.through_all(segments.reshape(-1, 2), np.arange(0, 2 * len(segments), 2))
+    return stroke(ax, path, color, width, label=label, zorder=zorder)
 
 
 def stroke(
     ax: Axes,
-    vertices: FloatArray,
-    starts: IntArray,
+    path: Path,
     color: str,
     width: float,
     *,
     label: str | None = None,
     zorder: float = 2,
 ) -> Axes:
-    """Draw lines through vertices (k, 2), a new one at each of the positions `starts`."""
-    if not len(vertices):
+    """Draw a path of lines."""
+    if not len(path):
         return ax
     from matplotlib.collections import PathCollection
     from matplotlib.path import Path as Outline
 
-    codes = np.full(len(vertices), Outline.LINETO, np.uint8)
-    codes[starts] = Outline.MOVETO
+    # A closing would lead to where its chunk starts; its vertex is the start of the ring.
+    codes = np.where(path.codes == CLOSE, LINE, path.codes).astype(np.uint8)
     outlines = []
-    for k in range(0, len(vertices), CHUNK):
+    for k in range(0, len(path), CHUNK):
         part = codes[k : k + CHUNK + 1].copy()
-        part[0] = Outline.MOVETO
-        outlines.append(Outline(vertices[k : k + CHUNK + 1], part))
+        part[0] = MOVE
+        outlines.append(Outline(path.vertices[k : k + CHUNK + 1], part))
     lines = PathCollection(
         outlines,
         facecolors="none",

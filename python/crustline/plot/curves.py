@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crustline.arrays import FloatArray, IntArray, as_points
+from crustline.arrays import as_points
+from crustline.path import Path
 from crustline.plot.axes import (
     BLUE,
     GRAY,
@@ -93,24 +94,14 @@ def plot_curves(
     xy = as_points(curves.points)
     ax = axes(ax, xy)
     for closed, color, label in ((True, BLUE, "ring"), (False, VERMILLION, "polyline")):
-        vertices, starts = _walks(curves, xy, closed)
+        lines = (each for each in curves.features() if each.kind == "line")
+        path = Path.joined(Path.of_feature(each, xy) for each in lines if each.closed == closed)
         # A name is worth its place in the legend where there are both kinds.
         named = (
             label if closed not in curves.closed or not np.all(curves.closed == closed) else None
         )
-        stroke(ax, vertices, starts, color, 1.8, label=named, zorder=3)
+        stroke(ax, path, color, 1.8, label=named, zorder=3)
     if points:
         plot_points(xy, ax)
     mark(ax, xy[curves.isolated], "o", GRAY, "isolated point")
     return plot_indices(xy, ax) if indices else ax
-
-
-def _walks(curves: Curves, xy: FloatArray, closed: bool) -> tuple[FloatArray, IntArray]:
-    """Return the vertices of all rings (the first repeated) or all polylines, and their starts."""
-    chosen = np.flatnonzero(np.asarray(curves.closed) == closed)
-    first, end = curves.offsets[chosen], curves.offsets[chosen + 1]
-    counts = end - first + closed
-    starts = np.cumsum(counts) - counts
-    steps = np.arange(counts.sum()) - np.repeat(starts, counts)
-    steps %= np.repeat(end - first, counts)
-    return xy[curves.indices[np.repeat(first, counts) + steps]], starts
