@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -133,6 +134,30 @@ def test_points_on_a_line_are_separated_by_lines() -> None:
     assert axis.ray_samples.tolist() == [[1, 2], [1, 2]]
     assert sorted(axis.ray_directions.tolist()) == [[0.0, -1.0], [0.0, 1.0]]
     assert axis.clipped((0, -1, 9, 2)).tolist() == [[[3, 0], [3, -1]], [[3, 0], [3, 2]]]
+
+
+def test_clipping_keeps_exactly_what_is_in_the_box() -> None:
+    segments = [
+        [[0.5, 0.5], [1.5, 0.5]],
+        [[-1.0, 0.5], [3.0, 0.5]],
+        [[1.0, -5.0], [1.0, 0.25]],
+        [[-1.0, 0.0], [0.0, 2.0]],
+        [[5.0, 0.5], [6.0, 0.5]],
+    ]
+    axis = replace(
+        medial_axis([]),
+        vertices=np.array(segments).reshape(-1, 2),
+        edges=np.arange(10).reshape(-1, 2),
+        inner=np.arange(5) < 2,
+    )
+    expected = [
+        [[0.5, 0.5], [1.5, 0.5]],
+        [[0.0, 0.5], [2.0, 0.5]],
+        [[1.0, 0.0], [1.0, 0.25]],
+    ]
+    assert axis.clipped((0, 0, 2, 1)).tolist() == expected
+    assert axis.clipped((0, 0, 2, 1), inner=True).tolist() == expected[:2]
+    assert axis.clipped((0, 0, 2, 1), inner=False).tolist() == expected[2:]
 
 
 @pytest.mark.parametrize("points", [[], [(1, 2)], [(1, 2), (1, 2)]])

@@ -6,6 +6,7 @@ import math
 import subprocess
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
@@ -24,10 +25,10 @@ from crustline import plot
 from crustline.curves import Curves, trace
 from crustline.delaunay import Delaunay
 from crustline.errors import InputError, MissingExtraError
+from crustline.medial_axis import MedialAxis, medial_axis
 from crustline.methods import crust
 from crustline.plot.axes import CHUNK
 from crustline.plot.certificate import MARKERS
-from crustline.plot.clip import clipped
 from crustline.plot.picture import SUFFIXES
 from crustline.points import Points
 
@@ -68,9 +69,10 @@ def as_rows(segments: Floats, points: Floats) -> set[tuple[int, ...]]:
     return {tuple(sorted(pair)) for pair in distance.argmin(axis=2).tolist()}
 
 
-def medial_axis_of_a_cross() -> Any:
+def medial_axis_of_a_cross() -> MedialAxis:
     vertices = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 3.0], [50.0, 0.0]])
-    return SimpleNamespace(
+    return replace(
+        medial_axis([]),
         vertices=vertices,
         edges=np.array([[0, 1], [0, 2]]),
         inner=np.array([True, False]),
@@ -188,26 +190,6 @@ def test_far_away_voronoi_vertices_do_not_change_the_view() -> None:
     ax = plot.plot_voronoi(Delaunay(points))
     assert np.abs(drawn(ax, plot.ORANGE)).max() < 10
     assert -1 < ax.get_xlim()[0] < ax.get_xlim()[1] < 3
-
-
-def test_clipping_keeps_exactly_what_is_in_the_box() -> None:
-    box = np.array([[0.0, 0.0], [2.0, 1.0]])
-    segments = np.array(
-        [
-            [[0.5, 0.5], [1.5, 0.5]],
-            [[-1.0, 0.5], [3.0, 0.5]],
-            [[1.0, -5.0], [1.0, 0.25]],
-            [[-1.0, 0.0], [0.0, 2.0]],
-            [[5.0, 0.5], [6.0, 0.5]],
-            [[np.inf, 0.5], [0.5, 0.5]],
-        ]
-    )
-    expected = [
-        [[0.5, 0.5], [1.5, 0.5]],
-        [[0.0, 0.5], [2.0, 0.5]],
-        [[1.0, 0.0], [1.0, 0.25]],
-    ]
-    assert clipped(segments, box).tolist() == expected
 
 
 def test_medial_axis_tells_inner_from_outer_and_cuts_its_rays() -> None:

@@ -347,4 +347,3 @@ def reconstruct(
     """
     delaunay = as_delaunay(points)
     return trace(delaunay, method(delaunay, **parameters))
-

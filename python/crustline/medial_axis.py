@@ -75,13 +75,15 @@ class MedialAxis(Record):
     points: Points = field(repr=False)
     selected: IntArray = field(repr=False)
 
-    def clipped(self, box: npt.ArrayLike) -> FloatArray:
+    def clipped(self, box: npt.ArrayLike, *, inner: bool | None = None) -> FloatArray:
         """Return the part in a box as segments, unbounded edges included.
 
         Parameters
         ----------
         box : array_like of float, shape (4,)
             Least x, least y, largest x, largest y.
+        inner : bool, optional
+            Only what is inside of the rings, or only what is outside; both by default.
 
         Returns
         -------
@@ -99,10 +101,14 @@ class MedialAxis(Record):
         >>> medial_axis([(0, 0), (2, 0), (0, 1), (2, 1)], []).clipped((0, 0, 1, 1)).tolist()
         [[[1.0, 0.5], [1.0, 0.0]], [[1.0, 0.5], [0.0, 0.5]], [[1.0, 0.5], [1.0, 1.0]]]
         """
-        vertices, edges = self._clipped(_as_box(box))
+        whole = np.concatenate([self.inner, np.zeros(len(self.ray_origins), bool)])
+        wanted = np.ones(len(whole), bool) if inner is None else whole == inner
+        vertices, edges = self._clipped(_as_box(box), wanted)
         return vertices[edges]
 
-    def _clipped(self, box: FloatArray) -> tuple[FloatArray, IntArray]:
+    def _clipped(
+        self, box: FloatArray, wanted: BoolArray | Literal[True] = True
+    ) -> tuple[FloatArray, IntArray]:
         """Return the part in a box as vertices and edges; where it is cut, vertices are new."""
         first = np.concatenate([self.edges[:, 0], self.ray_origins])
         last = np.concatenate([self.edges[:, 1], np.full(len(self.ray_origins), -1)])
@@ -111,7 +117,7 @@ class MedialAxis(Record):
             [self.vertices[self.edges[:, 1]] - start[: len(self.edges)], self.ray_directions]
         )
         enters, leaves = _passage(start, step, np.where(last < 0, np.inf, 1.0), box)
-        seen = np.flatnonzero(enters < leaves)
+        seen = np.flatnonzero((enters < leaves) & wanted)
         ends = []
         vertices = [self.vertices]
         for t, own, whole in ((enters, first, 0.0), (leaves, last, 1.0)):

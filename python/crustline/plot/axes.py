@@ -131,3 +131,12 @@ def _legend(ax: Axes) -> None:
 def dot_size(n: int) -> float:
     """Return a diameter for each of n dots: 3.5 points for a few, 0.5 for a million."""
     return float(np.clip(40 / math.sqrt(n + 1), 0.5, 3.5))
+
+
+def box_around(xy: FloatArray) -> FloatArray:
+    """Return a box of three times the extent of the points: least x, least y, largest x and y."""
+    if not len(xy):
+        return np.array([-1.0, -1.0, 1.0, 1.0])
+    low, high = xy.min(axis=0), xy.max(axis=0)
+    margin = math.hypot(*(high - low)) or 1.0
+    return np.concatenate([low - margin, high + margin])

@@ -6,14 +6,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crustline.arrays import FloatArray, as_points
+from crustline.arrays import as_points
+from crustline.medial_axis import medial_axis
 from crustline.plot.axes import (
     GRAY,
     ORANGE,
     axes,
+    box_around,
     draw_segments,
 )
-from crustline.plot.clip import box_around, clipped, long_rays
 from crustline.plot.points import plot_indices, plot_points
 
 if TYPE_CHECKING:
@@ -93,24 +94,6 @@ def plot_voronoi(
     """
     xy = as_points(delaunay.points)
     ax = axes(ax, xy)
-    box = box_around(xy)
-    draw_segments(ax, clipped(_voronoi(delaunay, xy, box), box), color, 0.7, label="Voronoi")
+    diagram = medial_axis(delaunay, np.empty((0, 2), np.int64))
+    draw_segments(ax, diagram.clipped(box_around(xy)), color, 0.7, label="Voronoi")
     return plot_points(xy, ax) if points else ax
-
-
-def _voronoi(delaunay: Delaunay, xy: FloatArray, box: FloatArray) -> FloatArray:
-    """Return the Voronoi edges as segments, the unbounded ones long enough to leave the box."""
-    if not len(delaunay.triangles):
-        p, q = xy[delaunay.edges].transpose(1, 0, 2)
-        middle, across = (p + q) / 2, np.stack([p[:, 1] - q[:, 1], q[:, 0] - p[:, 0]], 1)
-        return np.concatenate([long_rays(middle, across, box), long_rays(middle, -across, box)])
-    twins = np.asarray(delaunay.halfedges)
-    centers = np.asarray(delaunay.circumcenters)
-    e = np.arange(len(twins))
-    inner = np.flatnonzero(e < twins)
-    finite = centers[np.stack([inner // 3, twins[inner] // 3], 1)]
-    outer = np.flatnonzero(twins < 0)
-    p = xy[delaunay.triangles.ravel()[outer]]
-    q = xy[delaunay.triangles[outer // 3, (outer + 1) % 3]]
-    outward = np.stack([q[:, 1] - p[:, 1], p[:, 0] - q[:, 0]], 1)
-    return np.concatenate([finite, long_rays(centers[outer // 3], outward, box)])

@@ -11,9 +11,9 @@ from crustline.plot.axes import (
     GREEN,
     PURPLE,
     axes,
+    box_around,
     draw_segments,
 )
-from crustline.plot.clip import box_around, clipped, long_rays
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -50,18 +50,15 @@ def plot_medial_axis(
     >>> from crustline import medial_axis
     >>> ax = plot_medial_axis(medial_axis([(0, 0), (2, 0), (2, 1), (0, 1)]))
     """
-    vertices = np.asarray(medial_axis.vertices, np.float64)
-    edges, inner = np.asarray(medial_axis.edges), np.asarray(medial_axis.inner, bool)
-    core = _core(vertices)
-    ax = axes(ax, core if ax is None else vertices[:0])
+    core = _core(medial_axis.vertices)
+    ax = axes(ax, core if ax is None else core[:0])
     seen = ax.dataLim.get_points()
     box = box_around(seen if np.isfinite(seen).all() else core)
-    draw_segments(ax, clipped(vertices[edges[inner]], box), GREEN, width, label="medial axis")
+    inner = medial_axis.clipped(box, inner=True)
+    draw_segments(ax, inner, GREEN, width, label="medial axis")
     if outer:
-        origins = vertices[medial_axis.ray_origins]
-        rays = long_rays(origins, np.asarray(medial_axis.ray_directions), box)
-        outside = np.concatenate([vertices[edges[~inner]], rays])
-        draw_segments(ax, clipped(outside, box), PURPLE, 0.7 * width, label="outer medial axis")
+        outside = medial_axis.clipped(box, inner=False)
+        draw_segments(ax, outside, PURPLE, 0.7 * width, label="outer medial axis")
     return ax
 
 
