@@ -1,69 +1,148 @@
-"""ARCHITECTURE.md against the imports: a module imports from its own line and the lines above."""
+"""ARCHITECTURE.md against the sources: who imports whom, and how long files and functions are."""
 
 from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
-from pathlib import Path
+from collections.abc import Iterable
+from graphlib import CycleError, TopologicalSorter
 
 import pytest
 
-ROOT = Path(__file__).parent.parent
-CORE = ROOT / "crates" / "core" / "src"
-PACKAGE = ROOT / "python" / "crustline"
+import imports
+from imports import Import, layer
+
+PARTS = {
+    "core": (imports.RUST_FILES, imports.rust_imports),
+    "python": (imports.PYTHON_FILES, imports.python_imports),
+}
+LONGEST_FILE, LONGEST_FUNCTION = 450, 45
 
 
-def layers(part: str) -> dict[str, int]:
-    """The line of each module in the list of a part of ARCHITECTURE.md."""
-    text = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
-    block = re.search(rf"```{part}\n(.*?)```", text, re.DOTALL)
-    assert block, f"ARCHITECTURE.md has no block {part}"
-    lines = block[1].splitlines()
-    return {module: depth for depth, line in enumerate(lines) for module in line.split()}
+def block(name: str) -> list[str]:
+    """The lines of a block of ARCHITECTURE.md, without what is said of them."""
+    text = (imports.ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
+    found = re.search(rf"```{name}\n(.*?)```", text, re.DOTALL)
+    assert found, f"ARCHITECTURE.md has no block {name}"
+    return [line.partition("|")[0].strip() for line in found[1].splitlines()]
 
 
-def core_imports() -> Iterator[tuple[str, str]]:
-    """Pairs of modules of the core: one, and one that it names."""
-    for path in CORE.rglob("*.rs"):
-        module = path.relative_to(CORE).parts[0].removesuffix(".rs")
-        if module != "lib":
-            code = re.sub(r"//.*", "", path.read_text(encoding="utf-8"))
-            for named in re.findall(r"crate::(?:\{([^}]*)\}|(\w+))", code):
-                for name in re.findall(r"\b[a-z_]\w*", named[0]) or [named[1]]:
-                    yield module, name
+def layers(part: str) -> list[str]:
+    """The modules of a part, from the one that imports none on."""
+    return " ".join(block(part)).split()
 
 
-def package_imports() -> Iterator[tuple[str, str]]:
-    """Pairs of modules of the package: one, and one that it imports when it is itself imported."""
-    for path in PACKAGE.rglob("*.py"):
-        module = path.relative_to(PACKAGE).parts[0].removesuffix(".py")
-        if module not in ("__init__", "__main__"):
-            tree = ast.parse(path.read_text(encoding="utf-8"))
-            for node in tree.body:
-                if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("crustline"):
-                    names = (node.module or "").split(".")[1:2] or [a.name for a in node.names]
-                    yield from ((module, name) for name in names)
+def doors() -> set[tuple[str, str]]:
+    lines = (line.split(" -> ") for line in block("doors"))
+    return {(user, used) for user, all_used in lines for used in all_used.split()}
 
 
-@pytest.mark.parametrize("part", ["core", "python"])
+def is_door(found: Import) -> bool:
+    ways = {(user, used) for user in (found.user, layer(found.user))
+            for used in (found.used, layer(found.used), "*")}  # fmt: skip
+    return bool(ways & doors())
+
+
+def as_text(found: Iterable[Import]) -> list[str]:
+    return sorted(f"{each.user} imports {each.used}" for each in found)
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_layers_name_every_module_and_no_other(part: str) -> None:
+    files, _ = PARTS[part]
+    there = {layer(name) for name in files} - {"", "__main__", "lib"}
+    assert sorted(layers(part)) == sorted(there)
+
+
+@pytest.mark.parametrize("part", PARTS)
 def test_imports_point_one_way(part: str) -> None:
-    depth = layers(part)
-    imports = set(core_imports() if part == "core" else package_imports())
-    known = {(a, b) for a, b in imports if a != b and b not in ("_core", "Delaunay", "Result")}
-    unlisted = {module for pair in known for module in pair} - set(depth)
-    assert not unlisted, f"ARCHITECTURE.md does not list {sorted(unlisted)}"
-    wrong = sorted((a, b) for a, b in known if depth[b] > depth[a])
-    assert not wrong, f"these import against the order of ARCHITECTURE.md: {wrong}"
-    assert len(known) > 20
+    depth = {module: k for k, module in enumerate(layers(part))}
+    found = PARTS[part][1]()
+    assert len(found) > 80
+    across = [each for each in found if layer(each.user) != layer(each.used)]
+    wrong = [each for each in across if depth.get(layer(each.used), 99) > depth[layer(each.user)]]
+    assert not as_text(each for each in wrong if not (each.lazy and is_door(each)))
 
 
-@pytest.mark.parametrize("part", ["core", "python"])
-def test_every_module_listed_exists(part: str) -> None:
-    folder, suffix = (CORE, ".rs") if part == "core" else (PACKAGE, ".py")
-    missing = [
-        module
-        for module in layers(part)
-        if not (folder / module).is_dir() and not (folder / f"{module}{suffix}").is_file()
-    ]
-    assert not missing
+def test_imports_inside_functions_are_doors() -> None:
+    lazy = [each for each in imports.python_imports() if each.lazy]
+    assert not as_text(each for each in lazy if not is_door(each))
+
+
+def test_every_door_is_used() -> None:
+    lazy = [each for each in imports.python_imports() if each.lazy]
+    used = {(user, used) for each in lazy for user in (each.user, layer(each.user))
+            for used in (each.used, layer(each.used), "*")}  # fmt: skip
+    assert sorted(doors() - used) == []
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_no_files_import_each_other(part: str) -> None:
+    graph: dict[str, set[str]] = {}
+    for each in PARTS[part][1]():
+        if not is_door(each):
+            graph.setdefault(each.user, set()).add(each.used)
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as error:
+        pytest.fail(" → ".join(error.args[1]))
+
+
+# --- The reader itself --------------------------------------------------------------------------
+
+
+def test_use_trees_are_read() -> None:
+    assert imports._branches("crate::a::{b, c::{D, e as f}, self}") == [
+        "crate::a::b", "crate::a::c::D", "crate::a::c::e", "crate::a::self",
+    ]  # fmt: skip
+    code = (
+        "use super::rings::{HalfEdge, NONE};\nuse crate::point::Point;\npub use super::stars::Star;"
+    )
+    assert imports._of_rust("delaunay.divide", code) == {"delaunay.rings", "point"}
+    assert imports._of_rust("delaunay", "mod divide;\nfn f() { divide::go(); }") == {
+        "delaunay.divide"
+    }
+
+
+def test_imports_of_a_module_are_read() -> None:
+    code = "from crustline import theory\nimport crustline.errors\n"
+    code += "def f():\n    from crustline.plot import x"
+    assert list(imports._of_python("curves", ast.parse(code))) == [
+        Import("curves", "theory", False), Import("curves", "errors", False),
+        Import("curves", "plot", True),
+    ]  # fmt: skip
+
+
+# --- Lengths ------------------------------------------------------------------------------------
+
+
+def code_lines(text: str, tree: ast.Module) -> list[int]:
+    """The numbers of the lines that are no docstrings, comments or blank."""
+    strings = {
+        number
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+        and isinstance(node.value.value, str)
+        for number in range(node.lineno, (node.end_lineno or node.lineno) + 1)
+    }  # fmt: skip
+    lines = enumerate(text.splitlines(), 1)
+    return [k for k, line in lines if k not in strings and re.match(r"\s*[^\s#]", line)]
+
+
+@pytest.mark.parametrize("name", imports.PYTHON_FILES)
+def test_no_python_file_or_function_is_long(name: str) -> None:
+    text = imports.PYTHON_FILES[name].read_text(encoding="utf-8")
+    tree = ast.parse(text)
+    lines = code_lines(text, tree)
+    assert len(lines) <= LONGEST_FILE
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef):
+            own = [k for k in lines if node.lineno <= k <= (node.end_lineno or 0)]
+            assert len(own) <= LONGEST_FUNCTION, node.name
+
+
+@pytest.mark.parametrize("name", imports.RUST_FILES)
+def test_no_rust_file_is_long(name: str) -> None:
+    """Clippy counts the lines of functions: clippy.toml."""
+    text = imports.RUST_FILES[name].read_text(encoding="utf-8").partition("#[cfg(test)]")[0]
+    assert len(re.findall(r"^\s*(?!//)\S", text, re.MULTILINE)) <= LONGEST_FILE
