@@ -10,7 +10,6 @@ The path that data takes::
 from crustline import shapes, theory
 from crustline._core import __version__
 from crustline.certify import Certificate, certify
-from crustline.connect import connect
 from crustline.curves import Curve, Curves, Polygon, reconstruct, trace
 from crustline.delaunay import Delaunay
 from crustline.errors import CrustlineError, FormatError, InputError, MissingExtraError
@@ -22,6 +21,7 @@ from crustline.methods import (
     a_shape,
     alpha_shape,
     beta_skeleton,
+    connect,
     crossing_angle_graph,
     crust,
     gabriel,

@@ -8,21 +8,10 @@ __all__ = [
     "Delaunay",
     "Interpolant",
     "__version__",
-    "a_shape",
-    "alpha_shape",
-    "beta_skeleton",
     "connect",
-    "crossing_angle_graph",
-    "crust",
-    "gabriel",
-    "gamma_graph",
     "is_canonical",
     "medial_axis",
-    "minimum_spanning_tree",
-    "nn_crust",
-    "one_step_crust",
-    "rcgh",
-    "relative_neighborhood",
+    "select",
     "shells",
     "trace",
 ]
@@ -51,109 +40,10 @@ def connect(
     threads: int | None = None,
     progress: _Progress | None = None,
 ) -> _Integers: ...
-def crust(
+def select(
     delaunay: Delaunay,
-    threads: int | None = None,
-    progress: _Progress | None = None,
-) -> _Integers: ...
-def beta_skeleton(
-    delaunay: Delaunay,
-    beta: float,
-    lune: bool,
-    threads: int | None = None,
-    progress: _Progress | None = None,
-) -> _Integers: ...
-def gabriel(
-    delaunay: Delaunay,
-    threads: int | None = None,
-    progress: _Progress | None = None,
-) -> _Integers: ...
-def relative_neighborhood(
-    delaunay: Delaunay,
-    threads: int | None = None,
-    progress: _Progress | None = None,
-) -> _Integers: ...
-def one_step_crust(
-    delaunay: Delaunay,
-    threads: int | None = None,
-    progress: _Progress | None = None,
-) -> _Integers: ...
-def gamma_graph(
-    delaunay: Delaunay,
-    c0: float,
-    c1: float,
-    threads: int | None = None,
-    progress: _Progress | None = None,
-) -> _Integers: ...
-def crossing_angle_graph(
-    delaunay: Delaunay,
-    cotangent: float,
-    threads: int | None = None,
-    progress: _Progress | None = None,
-) -> _Integers: ...
-def alpha_shape(
-    delaunay: Delaunay,
-    radius: float,
-    threads: int | None = None,
-    progress: _Progress | None = None,
-) -> _Integers: ...
-def a_shape(
-    delaunay: Delaunay,
-    own: int,
-    threads: int | None = None,
-    progress: _Progress | None = None,
-) -> _Integers: ...
-def rcgh(
-    delaunay: Delaunay,
-    threads: int | None = None,
-    progress: _Progress | None = None,
-) -> _Integers: ...
-def nn_crust(
-    delaunay: Delaunay,
-    threads: int | None = None,
-    progress: _Progress | None = None,
-) -> _Integers: ...
-def hnn_crust(
-    delaunay: Delaunay,
-    threads: int | None = None,
-    progress: _Progress | None = None,
-) -> _Integers: ...
-def compatible_crust(
-    delaunay: Delaunay,
-    cotangent: float,
-    threads: int | None = None,
-    progress: _Progress | None = None,
-) -> _Integers: ...
-def conservative_crust(
-    delaunay: Delaunay,
-    ratio: float,
-    threads: int | None = None,
-    progress: _Progress | None = None,
-) -> _Integers: ...
-def gathan(
-    delaunay: Delaunay,
-    sine: float,
-    ratio: float,
-    threads: int | None = None,
-    progress: _Progress | None = None,
-) -> _Integers: ...
-def crawl(
-    delaunay: Delaunay,
-    threads: int | None = None,
-    progress: _Progress | None = None,
-) -> _Integers: ...
-def peel(
-    delaunay: Delaunay,
-    threads: int | None = None,
-    progress: _Progress | None = None,
-) -> _Integers: ...
-def sig_delaunay(
-    delaunay: Delaunay,
-    threads: int | None = None,
-    progress: _Progress | None = None,
-) -> _Integers: ...
-def minimum_spanning_tree(
-    delaunay: Delaunay,
+    method: str,
+    parameters: list[float],
     threads: int | None = None,
     progress: _Progress | None = None,
 ) -> _Integers: ...

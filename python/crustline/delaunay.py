@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from crustline import _core
-from crustline.arrays import read_only
+from crustline.arrays import IntArray, read_only
 from crustline.notebook import table
 from crustline.points import Points
 from crustline.scalars import as_whole
@@ -143,6 +143,10 @@ class Delaunay:
     def run(self, work: Callable[..., Made], *arguments: object) -> Made:
         """Return what a function of the core makes of the triangulation, run as was asked for."""
         return work(self._core, *arguments, *self._how)
+
+    def select(self, method: str, *parameters: float) -> IntArray:
+        """Return the edges that a method of the core selects, with its parameters in order."""
+        return self.run(_core.select, method, list(map(float, parameters)))
 
     def cached(
         self, name: str, make: Callable[[], Made], fits: Callable[[Made], bool] | None = None

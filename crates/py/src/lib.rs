@@ -28,12 +28,7 @@ mod _core {
     #[pymodule_export]
     use crate::medial_axis::medial_axis;
     #[pymodule_export]
-    use crate::methods::{
-        a_shape, alpha_shape, beta_skeleton, compatible_crust, conservative_crust, crawl,
-        crossing_angle_graph, crust, gabriel, gamma_graph, gathan, hnn_crust,
-        minimum_spanning_tree, nn_crust, one_step_crust, peel, rcgh, relative_neighborhood,
-        sig_delaunay,
-    };
+    use crate::methods::select;
     #[pymodule_export]
     use crate::nesting::shells;
     #[pymodule_export]

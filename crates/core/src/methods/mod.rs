@@ -1,5 +1,7 @@
 //! The graphs on points: each takes a triangulation and gives edges, exactly by its definition.
 
+use crate::{Delaunay, Error, Progress, Result, edges::Edges};
+
 mod a_shape;
 mod alpha_shape;
 mod beta_skeleton;
@@ -41,3 +43,42 @@ pub use peel::peel;
 pub use rcgh::rcgh;
 pub use relative_neighborhood::relative_neighborhood;
 pub use sig_delaunay::sig_delaunay;
+
+/// The edges of the method called `name`, with its parameters in order: what bindings call.
+///
+/// # Errors
+/// That there is no such method, or those of the method.
+pub fn select(
+    delaunay: &Delaunay,
+    name: &str,
+    parameters: &[f64],
+    progress: &Progress,
+) -> Result<Edges> {
+    let kind = |lune| if lune == 0.0 { Kind::Circle } else { Kind::Lune };
+    match (name, parameters) {
+        ("a-shape", &[own]) => a_shape(delaunay, own as usize, progress),
+        ("alpha-shape", &[radius]) => alpha_shape(delaunay, radius, progress),
+        ("beta-skeleton", &[beta, lune]) => beta_skeleton(delaunay, beta, kind(lune), progress),
+        ("compatible-crust", &[cotangent]) => compatible_crust(delaunay, cotangent, progress),
+        ("conservative-crust", &[ratio]) => conservative_crust(delaunay, ratio, progress),
+        ("crawl", []) => crawl(delaunay, progress),
+        ("crossing-angle-graph", &[cotangent]) => {
+            crossing_angle_graph(delaunay, cotangent, progress)
+        }
+        ("crust", []) => crust(delaunay, progress),
+        ("gabriel", []) => gabriel(delaunay, progress),
+        ("gamma-graph", &[c0, c1]) => gamma_graph(delaunay, [c0, c1], progress),
+        ("gathan", &[sine, ratio]) => gathan(delaunay, sine, ratio, progress),
+        ("hnn-crust", []) => hnn_crust(delaunay, progress),
+        ("minimum-spanning-tree", []) => minimum_spanning_tree(delaunay, progress),
+        ("nn-crust", []) => nn_crust(delaunay, progress),
+        ("one-step-crust", []) => one_step_crust(delaunay, progress),
+        ("peel", []) => peel(delaunay, progress),
+        ("rcgh", []) => rcgh(delaunay, progress),
+        ("relative-neighborhood", []) => relative_neighborhood(delaunay, progress),
+        ("sig-delaunay", []) => sig_delaunay(delaunay, progress),
+        _ => Err(Error::Argument {
+            message: format!("no method {name} has {} parameters", parameters.len()),
+        }),
+    }
+}

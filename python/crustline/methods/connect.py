@@ -5,11 +5,11 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from crustline import _core
+from crustline.arrays import IntArray
 from crustline.delaunay import Delaunay, as_delaunay
-from crustline.methods import Edges
 
 
-def connect(points: ArrayLike | Delaunay) -> Edges:
+def connect(points: ArrayLike | Delaunay) -> IntArray:
     """Return the edges of the curves that points suggest, at most two a point.
 
     Of all sets of Delaunay edges with at most two a point this is one that costs little: an edge

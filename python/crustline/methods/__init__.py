@@ -1,0 +1,62 @@
+"""The methods: functions from points, or a `Delaunay` of them, to edges; and the table of them all.
+
+Those that have a definition are decided by it in exact arithmetic: no edge depends on rounding, on
+the order of rows, on the number of threads, or on which diagonals a triangulation has where points
+are cocircular. `connect` weighs estimates; it, too, depends on neither rows nor threads.
+"""
+
+from collections.abc import Callable
+
+from crustline.arrays import IntArray
+from crustline.methods.alpha_shapes import a_shape, alpha_shape
+from crustline.methods.connect import connect
+from crustline.methods.crusts import as_selected, crust, nn_crust, one_step_crust, rcgh
+from crustline.methods.neighborhoods import (
+    beta_skeleton,
+    crossing_angle_graph,
+    gabriel,
+    gamma_graph,
+    relative_neighborhood,
+)
+from crustline.methods.spanning_tree import minimum_spanning_tree
+
+Method = Callable[..., IntArray]
+
+METHODS: dict[str, Method] = {
+    each.__name__.replace("_", "-"): each
+    for each in (
+        crust,
+        connect,
+        beta_skeleton,
+        one_step_crust,
+        nn_crust,
+        gabriel,
+        relative_neighborhood,
+        gamma_graph,
+        crossing_angle_graph,
+        alpha_shape,
+        a_shape,
+        rcgh,
+        minimum_spanning_tree,
+    )
+}
+"""All methods by the names that they have on the command line and in the core."""
+
+__all__ = [
+    "METHODS",
+    "Method",
+    "a_shape",
+    "alpha_shape",
+    "as_selected",
+    "beta_skeleton",
+    "connect",
+    "crossing_angle_graph",
+    "crust",
+    "gabriel",
+    "gamma_graph",
+    "minimum_spanning_tree",
+    "nn_crust",
+    "one_step_crust",
+    "rcgh",
+    "relative_neighborhood",
+]
