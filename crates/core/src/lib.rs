@@ -23,6 +23,7 @@ mod parts;
 mod point;
 mod progress;
 mod space;
+pub mod tiles;
 pub mod trace;
 
 pub use delaunay::Delaunay;

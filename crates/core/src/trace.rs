@@ -31,63 +31,88 @@ pub struct Curves {
 /// # Errors
 /// A cancelled `progress`.
 pub fn trace(points: &[Point], edges: &Edges, progress: &Progress) -> Result<Curves> {
+    Ok(trace_between(points, edges, |_| false, progress)?.0)
+}
+
+/// The same for a part of all edges, which goes on at the rows that are `cut`.
+///
+/// The curves without a cut row, whole; and the runs of rows from a stop to a stop, where curves end or may go on, with a cut
+/// row at one end or both. They are not oriented; a run from a cut row to itself has it at both ends. A cut row is not isolated.
+///
+/// # Errors
+/// A cancelled `progress`.
+pub fn trace_between(
+    points: &[Point],
+    edges: &Edges,
+    cut: impl Fn(u32) -> bool,
+    progress: &Progress,
+) -> Result<(Curves, Vec<Vec<u32>>)> {
     progress.enter(Stage::Trace, edges.len())?;
     let graph = Incidence::new(edges, points.len());
-    let mut walk =
-        Walk { graph: &graph, used: vec![false; edges.len()], curves: Curves::default() };
-    walk.curves.offsets.push(0);
-    let rows = 0..points.len() as u32;
-    for row in rows.clone().filter(|&row| !matches!(graph.of(row).len(), 0 | 2)) {
-        walk.from(row);
-    }
-    progress.advance(walk.curves.indices.len())?;
-    for row in rows.clone().filter(|&row| graph.of(row).len() == 2) {
-        walk.from(row);
-    }
-    progress.advance(0)?;
-    let mut curves = walk.curves;
-    for k in 0..curves.closed.len() {
-        let closed = curves.closed[k];
-        let indices = &mut curves.indices[curves.offsets[k]..curves.offsets[k + 1]];
-        if closed { orient_ring(points, indices) } else { orient_polyline(indices) }
+    let mut walk = Walk { graph: &graph, cut, used: vec![false; edges.len()], path: vec![] };
+    let (mut curves, mut runs) = (Curves { offsets: vec![0], ..Curves::default() }, Vec::new());
+    // From the stops first: what is left then are rings without one.
+    for passes in [false, true] {
+        for row in 0..points.len() as u32 {
+            for &step in graph.of(row) {
+                if walk.passes(row) == passes && !walk.used[step.1 as usize] {
+                    walk.follow(row, step);
+                    walk.finish(points, &mut curves, &mut runs);
+                }
+            }
+        }
+        progress.advance(curves.indices.len())?;
     }
     curves.isolated = isolated(points, &graph);
-    Ok(curves.sorted())
+    curves.isolated.retain(|&row| !(walk.cut)(row));
+    Ok((curves.sorted(), runs))
 }
 
 /// The state of the tracing.
-struct Walk<'a> {
+struct Walk<'a, C> {
     graph: &'a Incidence,
+    cut: C,
     used: Vec<bool>,
-    curves: Curves,
+    /// The rows from one stop to the next, both included.
+    path: Vec<u32>,
 }
 
-impl Walk<'_> {
-    /// Trace every curve that leaves `row` by an edge not used yet.
-    fn from(&mut self, row: u32) {
-        for &step in self.graph.of(row) {
-            if !self.used[step.1 as usize] {
-                self.follow(row, step);
-            }
-        }
+impl<C: Fn(u32) -> bool> Walk<'_, C> {
+    /// Does a curve that comes to `row` go on there?
+    fn passes(&self, row: u32) -> bool {
+        self.graph.of(row).len() == 2 && !(self.cut)(row)
     }
 
     fn follow(&mut self, start: u32, (mut row, mut edge): (u32, u32)) {
-        self.curves.indices.push(start);
+        self.path.clear();
+        self.path.extend([start, row]);
         self.used[edge as usize] = true;
         while row != start
+            && self.passes(row)
             && let &[a, b] = self.graph.of(row)
         {
-            self.curves.indices.push(row);
             (row, edge) = if a.1 == edge { b } else { a };
+            self.path.push(row);
             self.used[edge as usize] = true;
         }
-        let closed = row == start;
-        if !closed {
-            self.curves.indices.push(row);
+    }
+
+    /// Put the path where it belongs.
+    fn finish(&mut self, points: &[Point], curves: &mut Curves, runs: &mut Vec<Vec<u32>>) {
+        let (first, last) = (self.path[0], self.path[self.path.len() - 1]);
+        if (self.cut)(first) || (self.cut)(last) {
+            return runs.push(self.path.clone());
         }
-        self.curves.offsets.push(self.curves.indices.len());
-        self.curves.closed.push(closed);
+        let closed = first == last;
+        if closed {
+            self.path.pop();
+            orient_ring(points, &mut self.path);
+        } else {
+            orient_polyline(&mut self.path);
+        }
+        curves.indices.extend_from_slice(&self.path);
+        curves.offsets.push(curves.indices.len());
+        curves.closed.push(closed);
     }
 }
 

@@ -6,7 +6,7 @@
 
 use crate::exact::circumcenter::{Center, HomogeneousCenter};
 use crate::exact::sign::{self, Form, Number, ROUNDING};
-use crate::point::{Point, cross, dot, sub};
+use crate::point::{Point, cross, dot, length, sub};
 use std::cmp::Ordering::{self, Equal, Greater, Less};
 
 /// The circles through `p` and `q`.
@@ -34,6 +34,14 @@ pub struct Vertex {
 struct Estimate {
     value: f64,
     error: f64,
+}
+
+impl Vertex {
+    /// The counter-clockwise triangle.
+    #[must_use]
+    pub fn triangle(&self) -> [Point; 3] {
+        self.triangle
+    }
 }
 
 impl Estimate {
@@ -122,6 +130,26 @@ impl Pencil {
         Disk { circle, parameter: twice, center, radius, error }
     }
 
+    /// The center of `circle` relative to p, its radius, and a bound on the error of both.
+    ///
+    /// To about ten digits; a center too uncertain for floating point is solved for in integers.
+    #[must_use]
+    pub fn center(&self, circle: Circle) -> (Point, f64, f64) {
+        let Disk { center, radius, error, .. } = self.disk(circle);
+        match circle {
+            Circle::Through(vertex) if error.is_nan() || error > 1e-10 * radius => {
+                let points = [&[self.q][..], &vertex.triangle].concat();
+                let points = points.try_into().expect("q and three corners");
+                let at =
+                    |axis| sign::quotient(&CenterThrough { axis }, &PlaceTwice, self.p, &points);
+                let center = [at(0), at(1)];
+                let radius = length(center);
+                (center, radius, 8.0 * ROUNDING * radius)
+            }
+            _ => (center, radius, error),
+        }
+    }
+
     /// The third corner of the triangle whose center the circle of `disk` goes through, if p and q are the other two.
     #[must_use]
     pub fn own_apex(&self, disk: &Disk) -> Option<Point> {
@@ -204,6 +232,36 @@ impl Form<4> for Power {
     }
     fn value<T: Number>(&self, [q, a, b, c]: &[[T; 2]; 4]) -> T {
         place(q, [a, b, c]).0
+    }
+}
+
+/// A coordinate of the center of the circle through p, q and a circumcenter, relative to p, times [`PlaceTwice`].
+struct CenterThrough {
+    axis: usize,
+}
+
+impl Form<4> for CenterThrough {
+    fn bound(&self, bits: u32) -> u32 {
+        7 * bits + 16
+    }
+    fn value<T: Number>(&self, [q, a, b, c]: &[[T; 2]; 4]) -> T {
+        let (power, height, w) = place(q, [a, b, c]);
+        let along = q[self.axis].times(&height.times(&w));
+        let aside = q[1 - self.axis].times(&power);
+        if self.axis == 0 { along.minus(&aside) } else { along.plus(&aside) }
+    }
+}
+
+/// Twice the height times w: what both coordinates are divided by.
+struct PlaceTwice;
+
+impl Form<4> for PlaceTwice {
+    fn bound(&self, bits: u32) -> u32 {
+        6 * bits + 14
+    }
+    fn value<T: Number>(&self, [q, a, b, c]: &[[T; 2]; 4]) -> T {
+        let (_, height, w) = place(q, [a, b, c]);
+        T::integer(2).times(&height.times(&w))
     }
 }
 

@@ -26,20 +26,39 @@ pub fn crossing_angle_graph(
     cotangent: f64,
     progress: &Progress,
 ) -> Result<Edges> {
-    if !cotangent.is_finite() {
-        let message = format!("the cotangent of the angle must be finite, not {cotangent}");
-        return Err(Error::Argument { message });
+    let crossing = Crossing::new(cotangent)?;
+    select(delaunay, progress, || (), |(), edge| crossing.holds(delaunay, edge))
+}
+
+/// The angle at which the circles have to cross.
+#[derive(Debug)]
+pub(crate) struct Crossing {
+    sum: AnglePair,
+    supplement: AngleBound,
+}
+
+impl Crossing {
+    /// The angle of `cotangent`, if that is finite.
+    pub(crate) fn new(cotangent: f64) -> Result<Self> {
+        if !cotangent.is_finite() {
+            let message = format!("the cotangent of the angle must be finite, not {cotangent}");
+            return Err(Error::Argument { message });
+        }
+        let supplement = AngleBound::of_cotangent(-cotangent);
+        Ok(Self { sum: AnglePair::sum(cotangent), supplement })
     }
-    let (sum, supplement) = (AnglePair::sum(cotangent), AngleBound::of_cotangent(-cotangent));
-    let keep = |edge: Edge| {
+
+    /// Do the circles of two empty disks that touch both ends of `edge` cross at this angle or more?
+    pub(crate) fn holds(&self, delaunay: &Delaunay, edge: Edge) -> bool {
         let [p, q] = [edge.p, edge.q].map(|vertex| delaunay.point(vertex));
         match [edge.left, edge.right].map(|apex| apex.map(|vertex| delaunay.point(vertex))) {
-            [Some(left), Some(right)] => sum.admits(p, q, left, right),
+            [Some(left), Some(right)] => self.sum.admits(p, q, left, right),
             // Outside of the hull the disks come near to a half-plane but are none: equality is not
             // reached.
-            [Some(apex), None] | [None, Some(apex)] => supplement.compare(p, q, apex) == Greater,
+            [Some(apex), None] | [None, Some(apex)] => {
+                self.supplement.compare(p, q, apex) == Greater
+            }
             [None, None] => true,
         }
-    };
-    select(delaunay, progress, || (), |(), edge| keep(edge))
+    }
 }

@@ -32,7 +32,6 @@ pub fn crust(delaunay: &Delaunay, progress: &Progress) -> Result<Edges> {
 
 /// How the search for the disk of an edge of the one-step crust ended.
 #[derive(Debug, Clone, Copy)]
-#[expect(dead_code, reason = "tiles will ask what a verdict rests on")]
 pub(crate) enum Verdict {
     /// The disk inside this circle holds no point and no Voronoi vertex.
     In(Circle),
@@ -173,7 +172,7 @@ impl Form<2> for RoomBehind {
 
 /// A walk over the Voronoi cells that meet a disk, and its memory.
 #[derive(Default)]
-pub(crate) struct Visit {
+pub struct Visit {
     cells: Vec<u32>,
     many: HashSet<u32>,
 }

@@ -64,7 +64,7 @@ pub(super) fn gamma_of(
 }
 
 /// Do the apexes of `edge` see it under at most these angles?
-pub(super) fn has_angles(
+pub(crate) fn has_angles(
     delaunay: &Delaunay,
     edge: Edge,
     left: &AngleBound,

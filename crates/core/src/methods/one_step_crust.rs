@@ -23,7 +23,7 @@ pub fn one_step_crust(delaunay: &Delaunay, progress: &Progress) -> Result<Edges>
 
 /// Is `edge` in the one-step crust?
 #[inline]
-pub(super) fn is_in(delaunay: &Delaunay, edge: Edge) -> bool {
+pub(crate) fn is_in(delaunay: &Delaunay, edge: Edge) -> bool {
     let (p, q) = (delaunay.point(edge.p), delaunay.point(edge.q));
     match (edge.left, edge.right) {
         (Some(left), Some(right)) => {

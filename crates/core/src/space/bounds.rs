@@ -73,6 +73,20 @@ impl Bounds {
         Self { low: sub(self.low, origin), high: sub(self.high, origin) }
     }
 
+    /// Each corner of this box, moved to the nearest place in `other`.
+    #[must_use]
+    pub fn clamped(&self, other: &Self) -> Self {
+        let clamp =
+            |p: Point| [0, 1].map(|axis| p[axis].max(other.low[axis]).min(other.high[axis]));
+        Self { low: clamp(self.low), high: clamp(self.high) }
+    }
+
+    /// The same box in another unit.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self { low: self.low.map(|x| x * factor), high: self.high.map(|x| x * factor) }
+    }
+
     /// The squared distance to `p`.
     #[inline]
     #[must_use]

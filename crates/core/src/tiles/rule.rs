@@ -1,0 +1,207 @@
+//! What each method that tiles can decide asks of the points: what a verdict rests on, and how far a partner can be.
+
+use super::disk::Disk;
+use super::reach::Sectors;
+use crate::delaunay::{Delaunay, Edge};
+use crate::error::{Error, Result};
+use crate::exact::angle_bound::AngleBound;
+use crate::exact::pencil::{Pencil, Vertex};
+use crate::methods::{Crossing, Verdict, Visit, find_disk, has_angles, is_in_one_step_crust};
+use crate::point::{Point, cross, dot, sub};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// The verdict on an edge, by the points that were seen: final if no point in the disks is unseen.
+#[derive(Debug, Clone, Copy)]
+pub struct Finding {
+    /// Is the edge in?
+    pub is_in: bool,
+    /// What that rests on; "out" often rests on nothing.
+    pub rests_on: [Option<Disk>; 2],
+}
+
+impl Finding {
+    /// More points do not bring the edge back.
+    const OUT: Self = Self { is_in: false, rests_on: [None; 2] };
+}
+
+/// A method that can be decided tile by tile.
+pub trait Rule: Sync {
+    /// The working memory of one task.
+    type Memory: Default;
+
+    /// The verdict on an edge of the triangulation.
+    fn find(&self, delaunay: &Delaunay, edge: Edge, memory: &mut Self::Memory) -> Finding;
+
+    /// Is the edge in the graph of these points that holds the method's edges between them, whatever other points there are?
+    fn may_join(&self, delaunay: &Delaunay, edge: Edge) -> bool;
+
+    /// For each sector an upper bound on the distance to partners there, from lower bounds on 1 / R.
+    fn reach(&self, sectors: &Sectors, support: &[f64], reach: &mut [f64]);
+}
+
+/// The crust.
+#[derive(Debug, Clone, Copy)]
+pub struct Crust;
+
+impl Rule for Crust {
+    type Memory = Visit;
+
+    /// In by a disk: final once all of its influence is seen. Out by Voronoi vertices: once each is seen to be one.
+    fn find(&self, delaunay: &Delaunay, edge: Edge, visit: &mut Visit) -> Finding {
+        if !is_in_one_step_crust(delaunay, edge) {
+            return Finding::OUT;
+        }
+        let pencil = pencil(delaunay, edge);
+        match find_disk(delaunay, edge, visit) {
+            Verdict::In(circle) => {
+                let influence = Disk::influence(&pencil, circle);
+                Finding { is_in: true, rests_on: [Some(influence), None] }
+            }
+            Verdict::Out(vertices) => {
+                let disk = |vertex: Option<Vertex>| vertex.and_then(|v| disk_of(&pencil, &v));
+                Finding { is_in: false, rests_on: vertices.map(disk) }
+            }
+        }
+    }
+
+    fn may_join(&self, delaunay: &Delaunay, edge: Edge) -> bool {
+        is_in_one_step_crust(delaunay, edge)
+    }
+
+    fn reach(&self, sectors: &Sectors, support: &[f64], reach: &mut [f64]) {
+        sectors.reach_by_angle(support, FRAC_PI_2, reach);
+    }
+}
+
+fn pencil(delaunay: &Delaunay, edge: Edge) -> Pencil {
+    Pencil::new(delaunay.point(edge.p), delaunay.point(edge.q))
+}
+
+/// The circumdisk of a Voronoi vertex; none for an end of the edge's own dual, which more points only move inward.
+fn disk_of(pencil: &Pencil, vertex: &Vertex) -> Option<Disk> {
+    let corners = vertex.triangle();
+    let is_end = corners.contains(&pencil.p) && corners.contains(&pencil.q);
+    (!is_end).then(|| Disk::around(vertex))
+}
+
+/// The one-step crust.
+#[derive(Debug, Clone, Copy)]
+pub struct OneStepCrust;
+
+impl Rule for OneStepCrust {
+    type Memory = ();
+
+    fn find(&self, delaunay: &Delaunay, edge: Edge, (): &mut ()) -> Finding {
+        let is_in = is_in_one_step_crust(delaunay, edge);
+        if is_in { by_two_disks(delaunay, edge, FRAC_PI_2) } else { Finding::OUT }
+    }
+
+    fn may_join(&self, delaunay: &Delaunay, edge: Edge) -> bool {
+        is_in_one_step_crust(delaunay, edge)
+    }
+
+    fn reach(&self, sectors: &Sectors, support: &[f64], reach: &mut [f64]) {
+        sectors.reach_by_angle(support, FRAC_PI_2, reach);
+    }
+}
+
+/// The γ-graph of two empty disks whose circles cross at a fixed angle or more.
+#[derive(Debug)]
+pub struct CrossingAngle {
+    crossing: Crossing,
+    angle: f64,
+}
+
+impl CrossingAngle {
+    /// The rule for the angle of this `cotangent`.
+    ///
+    /// # Errors
+    /// A `cotangent` that is not finite.
+    pub fn new(cotangent: f64) -> Result<Self> {
+        Ok(Self { crossing: Crossing::new(cotangent)?, angle: 1f64.atan2(cotangent) })
+    }
+}
+
+impl Rule for CrossingAngle {
+    type Memory = ();
+
+    fn find(&self, delaunay: &Delaunay, edge: Edge, (): &mut ()) -> Finding {
+        let is_in = self.crossing.holds(delaunay, edge);
+        if is_in { by_two_disks(delaunay, edge, self.angle) } else { Finding::OUT }
+    }
+
+    fn may_join(&self, delaunay: &Delaunay, edge: Edge) -> bool {
+        self.crossing.holds(delaunay, edge)
+    }
+
+    fn reach(&self, sectors: &Sectors, support: &[f64], reach: &mut [f64]) {
+        sectors.reach_by_angle(support, self.angle, reach);
+    }
+}
+
+/// In because the dual Voronoi edge is seen under `angle`: two empty disks centered so far apart, the smallest such, prove it.
+fn by_two_disks(delaunay: &Delaunay, edge: Edge, angle: f64) -> Finding {
+    let pencil = pencil(delaunay, edge);
+    // The center at the left is seen from p, above p q, under 90° less the angle opposite to the edge.
+    let end = |apex: Option<u32>| {
+        apex.map_or(FRAC_PI_2, |apex| FRAC_PI_2 - opposite(&pencil, delaunay.point(apex)))
+    };
+    let (low, high) = (-end(edge.right), end(edge.left));
+    let first = (-angle / 2.0).max(low).min(high - angle);
+    let disk = |direction: f64| {
+        let (sin, cos) = direction.sin_cos();
+        // The direction is right to some roundings, and the height turns with it by its derivative.
+        Disk::at_height(&pencil, sin / cos, 32.0 * f64::EPSILON / (cos * cos))
+    };
+    Finding { is_in: true, rests_on: [Some(disk(first)), Some(disk(first + angle))] }
+}
+
+/// The angle opposite to the pencil's chord at `apex`.
+fn opposite(pencil: &Pencil, apex: Point) -> f64 {
+    let (u, v) = (sub(pencil.p, apex), sub(pencil.q, apex));
+    cross(u, v).abs().atan2(dot(u, v)).clamp(0.0, PI)
+}
+
+/// The β-skeleton of circles, for β > 1.
+#[derive(Debug)]
+pub struct BetaSkeleton {
+    beta: f64,
+    bound: AngleBound,
+}
+
+impl BetaSkeleton {
+    /// The rule for `beta`.
+    ///
+    /// # Errors
+    /// A `beta` of at most 1, where a partner can be anywhere, or not finite.
+    pub fn new(beta: f64) -> Result<Self> {
+        if !(beta > 1.0 && beta.is_finite()) {
+            let message =
+                format!("tiles decide the β-skeleton for a finite beta above 1, not {beta}");
+            return Err(Error::Argument { message });
+        }
+        Ok(Self { beta, bound: AngleBound::of_beta(beta) })
+    }
+}
+
+impl Rule for BetaSkeleton {
+    type Memory = ();
+
+    /// In by its two disks.
+    fn find(&self, delaunay: &Delaunay, edge: Edge, (): &mut ()) -> Finding {
+        if !self.may_join(delaunay, edge) {
+            return Finding::OUT;
+        }
+        let (pencil, height) = (pencil(delaunay, edge), self.bound.cotangent());
+        let disk = |height: f64| Some(Disk::at_height(&pencil, height, f64::EPSILON * self.beta));
+        Finding { is_in: true, rests_on: [height, -height].map(disk) }
+    }
+
+    fn may_join(&self, delaunay: &Delaunay, edge: Edge) -> bool {
+        has_angles(delaunay, edge, &self.bound, &self.bound)
+    }
+
+    fn reach(&self, sectors: &Sectors, support: &[f64], reach: &mut [f64]) {
+        sectors.reach_by_disks(support, self.beta, reach);
+    }
+}
