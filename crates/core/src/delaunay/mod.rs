@@ -57,7 +57,7 @@ impl Delaunay {
     /// O(n log n), on the threads of the current rayon pool.
     ///
     /// # Errors
-    /// More than [`MOST_POINTS`] points, coordinates too far apart in size, or a cancelled `progress`.
+    /// More than `MOST_POINTS` points, coordinates too far apart in size, or a cancelled `progress`.
     pub fn new(points: &[Point], progress: &Progress) -> Result<Self> {
         debug_assert!(points.iter().flatten().all(|x| x.is_finite()));
         if points.len() > MOST_POINTS {

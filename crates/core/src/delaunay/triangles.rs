@@ -39,7 +39,7 @@ impl Delaunay {
         twins.collect::<Vec<_>>().into_flattened()
     }
 
-    /// For each half-edge, in the order of the stars: the triangle to its left; [`NONE`] on the outside of the hull.
+    /// For each half-edge, in the order of the stars: the triangle to its left; `NONE` on the outside of the hull.
     #[must_use]
     pub fn wedge_triangles(&self) -> Vec<u32> {
         let first = self.first_triangles();

@@ -217,7 +217,7 @@ impl Pencil {
     }
 }
 
-/// The exact counterpart of [`Place`]: power times w², and height times w.
+/// Where the center of the triangle lies in the pencil of the origin and `q`: its power times w², its height times w, and w.
 fn place<T: Number>(q: &[T; 2], [a, b, c]: [&[T; 2]; 3]) -> (T, T, T) {
     let v = HomogeneousCenter::new(a, b, c);
     let from_q = [0, 1].map(|axis| v.at[axis].minus(&q[axis].times(&v.w)));

@@ -3,7 +3,7 @@
 //! The filters and their constants are those of J. R. Shewchuk, "Adaptive Precision Floating-Point
 //! Arithmetic and Fast Robust Geometric Predicates", Discrete & Computational Geometry 18 (1997),
 //! sections 4.3 and 4.4; the expansions are the crate `robust`'s. These are exact unless a product
-//! underflows, so coordinates that small take the integers of [`sign`](crate::exact::sign) instead.
+//! underflows, so coordinates that small take the integers of `sign` instead.
 
 use crate::exact::angle::{Angle, mixed_sign};
 use crate::exact::sign::{Form, Number, ROUNDING, exact_sign, small_differences};

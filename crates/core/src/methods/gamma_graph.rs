@@ -21,7 +21,7 @@ use std::cmp::Ordering::{self, Equal, Greater, Less};
 /// The edges with an empty γ(c₀, c₁)-neighborhood, on either side of the edge, for −1 ≤ c₀, c₁ ≤ 1.
 ///
 /// O(n log n) for c₀ + c₁ ≥ 0, where the graph is a part of the closed Delaunay graph. Below that,
-/// up to all pairs are edges: see [`gamma_of`].
+/// up to all pairs are edges: see `gamma_of`.
 ///
 /// # Errors
 /// A parameter outside of its range, or a cancelled `progress`.
