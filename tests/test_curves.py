@@ -8,9 +8,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from crustline.curves import Curve, Curves, reconstruct, trace
+from crustline.curves import Curve, Curves, trace
 from crustline.errors import InputError
 from crustline.points import Points
+from crustline.reconstruction import reconstruct
 from crustline.testing import assert_same_curves, assert_same_edges
 
 

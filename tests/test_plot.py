@@ -31,6 +31,7 @@ from crustline.plot.axes import CHUNK
 from crustline.plot.certificate import MARKERS
 from crustline.plot.picture import SUFFIXES
 from crustline.points import Points
+from crustline.reconstruction import Reconstruction
 
 Floats = NDArray[np.float64]
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
@@ -278,7 +279,7 @@ def test_picture_uses_the_method_given(tmp_path: Path) -> None:
         seen.append(points)
         return crust(points)
 
-    plot.picture(SQUARE, tmp_path / "square.svg", method=method)
+    plot.picture(Reconstruction(SQUARE, method), tmp_path / "square.svg")
     assert len(seen) == 1
 
 

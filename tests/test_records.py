@@ -87,7 +87,7 @@ def test_what_points_carry_survives_the_triangulation() -> None:
 def test_every_function_of_points_takes_a_triangulation() -> None:
     delaunay = cl.Delaunay(RING)
     assert np.array_equal(cl.crust(delaunay), cl.crust(RING))
-    assert np.array_equal(cl.thin(delaunay, EDGES, 0.5), cl.thin(RING, EDGES, 0.5))
+    assert np.array_equal(cl.thin(delaunay, EDGES, r=0.5), cl.thin(RING, EDGES, r=0.5))
     sizes = cl.local_feature_size(delaunay), cl.local_feature_size(RING, cl.crust(RING))
     assert np.array_equal(*sizes, equal_nan=True)
     circle = cl.shapes.circle()

@@ -189,7 +189,7 @@ def test_splines_through_thinned_samples_can_be_sampled(tolerance: float | None)
     from crustline import reconstruct, smooth
 
     sample = r_sample(shapes.trefoil(3, 0.3), 0.01, seed=1)
-    points = sample.points[thin(sample.points, sample.edges, 0.02)]
+    points = sample.points[thin(sample.points, sample.edges, r=0.02)]
     (pieces,) = smooth(reconstruct(points)).beziers(tolerance)
     curve = SmoothCurve((bezier_loop(pieces),))
     again = r_sample(curve, 0.2)

@@ -15,8 +15,9 @@ from scipy.interpolate import CubicSpline, make_interp_spline
 from scipy.spatial import cKDTree
 
 from crustline import shapes
-from crustline.curves import reconstruct, trace
+from crustline.curves import trace
 from crustline.errors import FormatError, InputError, MissingExtraError
+from crustline.reconstruction import reconstruct
 from crustline.shapes.ratio import sampling_ratio
 from crustline.shapes.sampling import r_sample
 from crustline.smooth import Ends, Spline, Splines, smooth

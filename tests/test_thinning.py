@@ -38,7 +38,7 @@ def dense(curve: SmoothCurve, r: float = 0.01) -> tuple[FloatArray, npt.NDArray[
 @pytest.mark.parametrize("r", [0.2, 0.5])
 def test_thinned_samples_still_r_sample_the_curve(curve: SmoothCurve, r: float) -> None:
     points, edges = dense(curve)
-    kept = thin(points, edges, r)
+    kept = thin(points, edges, r=r)
     assert np.array_equal(kept, np.unique(kept))
     assert sampling_ratio(curve, points[kept]) <= r * 1.1
     assert len(kept) <= 1.25 * len(r_sample(curve, r)) + 2
@@ -49,18 +49,18 @@ def test_thin_keeps_endpoints_branches_and_isolated_points() -> None:
     bow = np.stack([t, 0.2 * np.sin(3 * t)], -1)
     points = np.vstack([bow, [[0.5, 5.0]]])
     edges = np.stack([np.arange(100), np.arange(1, 101)], -1)
-    kept = thin(points, edges, 0.3)
+    kept = thin(points, edges, r=0.3)
     assert {0, 100, 101} <= set(kept.tolist())
     assert len(kept) < 30
 
 
 def test_thin_of_sparse_samples_keeps_all() -> None:
     sample = r_sample(shapes.trefoil(3, 0.4), 0.4)
-    assert np.array_equal(thin(sample.points, sample.edges, 0.1), np.arange(len(sample)))
+    assert np.array_equal(thin(sample.points, sample.edges, r=0.1), np.arange(len(sample)))
 
 
 def test_thin_without_edges_keeps_all() -> None:
-    assert thin([(0, 0), (1, 1)], np.empty((0, 2), dtype=int), 0.2).tolist() == [0, 1]
+    assert thin([(0, 0), (1, 1)], np.empty((0, 2), dtype=int), r=0.2).tolist() == [0, 1]
 
 
 def test_thinned_chain_is_the_fewest_of_all_choices() -> None:
@@ -126,7 +126,7 @@ def test_thinning_very_dense_samples_looks_at_few_of_their_edges(
     n = 60_000
     points = shapes.trefoil(3, 0.3).point(np.arange(n) / n)
     edges = np.stack([np.arange(n), (np.arange(n) + 1) % n], -1)
-    assert len(thin(points, edges, 0.2)) < 60
+    assert len(thin(points, edges, r=0.2)) < 60
     assert sum(looked) < 20 * n
 
 

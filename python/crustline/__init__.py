@@ -10,7 +10,7 @@ The path that data takes::
 from crustline import shapes, theory
 from crustline._core import __version__
 from crustline.certify import Certificate, certify
-from crustline.curves import Curve, Curves, Polygon, reconstruct, trace
+from crustline.curves import Curve, Curves, Polygon, trace
 from crustline.delaunay import Delaunay
 from crustline.errors import CrustlineError, FormatError, InputError, MissingExtraError
 from crustline.formats import read, write
@@ -33,6 +33,7 @@ from crustline.methods import (
     relative_neighborhood,
 )
 from crustline.points import Points
+from crustline.reconstruction import Reconstruction, reconstruct
 from crustline.shapes.ratio import is_r_sample, sampling_ratio
 from crustline.shapes.sampling import Sample, r_sample, sample_for_error
 from crustline.smooth import Spline, Splines, smooth
@@ -53,6 +54,7 @@ __all__ = [
     "MissingExtraError",
     "Points",
     "Polygon",
+    "Reconstruction",
     "Sample",
     "Spline",
     "Splines",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
@@ -13,8 +13,7 @@ import numpy.typing as npt
 
 from crustline import _core
 from crustline.arrays import BoolArray, FloatArray, IntArray, as_edges, read_only
-from crustline.delaunay import Delaunay, as_delaunay, points_and_how
-from crustline.methods import crust
+from crustline.delaunay import Delaunay, points_and_how
 from crustline.points import Points
 from crustline.records import Record
 
@@ -311,39 +310,3 @@ def trace(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike) -> Curves:
     """
     kept, how = points_and_how(points)
     return Curves(kept, *_core.trace(kept.xy, as_edges(edges, len(kept)), *how))
-
-
-def reconstruct(
-    points: npt.ArrayLike | Delaunay,
-    method: Callable[..., npt.ArrayLike] = crust,
-    **parameters: Any,
-) -> Curves:
-    """Return the curves that the points were sampled from, by a method.
-
-    Parameters
-    ----------
-    points : array_like of float, shape (n, 2), Points or Delaunay
-        Coordinates, in any one unit. Finite. What points carry is kept.
-    method : callable, default `crust`
-        Takes the triangulation of the points and returns edges.
-    **parameters
-        Passed on to the method, such as ``beta=1.5`` for `beta_skeleton`.
-
-    Returns
-    -------
-    curves : Curves
-        The edges of the method, traced: see `trace`.
-
-    Raises
-    ------
-    InputError
-        If the points, a parameter or the edges that the method returns do not fit.
-
-    Examples
-    --------
-    >>> curves = reconstruct([(0, 0), (1, 1), (1, 0), (0, 1)])
-    >>> curves[0].indices.tolist(), curves[0].closed
-    ([0, 2, 1, 3], True)
-    """
-    delaunay = as_delaunay(points)
-    return trace(delaunay, method(delaunay, **parameters))

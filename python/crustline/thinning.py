@@ -8,9 +8,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from crustline.arrays import FloatArray, IntArray, as_edges, as_points
+from crustline.arrays import FloatArray, IntArray
 from crustline.curves import trace
+from crustline.delaunay import Delaunay, as_delaunay
 from crustline.interpolant import local_feature_size
+from crustline.methods import as_selected
 from crustline.scalars import as_share
 
 # Beyond this many edges a step, thinning strides instead of looking at every sample as a start.
@@ -19,15 +21,17 @@ MOST_SERVED = 150
 ROUNDING = 1e-9
 
 
-def thin(points: npt.ArrayLike, edges: npt.ArrayLike, r: float) -> IntArray:
+def thin(
+    points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = None, *, r: float
+) -> IntArray:
     """Return the samples to keep: the fewest that still r-sample the reconstruction.
 
     Parameters
     ----------
-    points : array_like of float, shape (n, 2)
+    points : array_like of float, shape (n, 2), Points or Delaunay
         Samples, dense ones.
-    edges : array_like of int, shape (m, 2)
-        Their reconstruction, for instance their crust.
+    edges : array_like of int, shape (m, 2), optional
+        Their reconstruction; by default the crust.
     r : float
         In (0, 1]. For r = 0.2 the crust of what is kept is in general the same curve, drawn with
         fewer points.
@@ -59,24 +63,22 @@ def thin(points: npt.ArrayLike, edges: npt.ArrayLike, r: float) -> IntArray:
     --------
     A circle of a hundred points needs fifteen of them for r = 0.25:
 
-    >>> from crustline import crust
     >>> from crustline.shapes import regular_polygon
-    >>> points = regular_polygon(100)
-    >>> len(thin(points, crust(points), 0.25))
+    >>> len(thin(regular_polygon(100), r=0.25))
     15
     """
     r = as_share("r", r)
-    rows = as_points(points)
-    pairs = as_edges(edges, len(rows))
-    if not len(pairs):
-        return np.arange(len(rows))
-    extent = float(np.ptp(rows, axis=0).max())
-    lfs = np.minimum(local_feature_size(rows, pairs), 8 * extent / r)
-    curves = trace(rows, pairs)
-    kept = [np.asarray(curves.isolated, dtype=np.int64)]
+    delaunay = as_delaunay(points)
+    selected = as_selected(delaunay, edges)
+    if not len(selected):
+        return np.arange(len(delaunay))
+    extent = float(np.ptp(delaunay.points.xy, axis=0).max())
+    lfs = np.minimum(local_feature_size(delaunay, selected), 8 * extent / r)
+    curves = trace(delaunay, selected)
+    kept = [curves.isolated]
     for curve in curves:
-        i = np.asarray(curve.indices, dtype=np.int64)
-        kept.append(i[_thinned(rows[i], lfs[i], r, bool(curve.closed))])
+        i = curve.indices
+        kept.append(i[_thinned(curve.points, lfs[i], r, curve.closed)])
     return np.unique(np.concatenate(kept))
 
 

@@ -8,7 +8,7 @@ import click
 
 from crustline.cli.method import Method, method_options
 from crustline.cli.output import Output, output_options
-from crustline.cli.reconstruct import select_edges
+from crustline.cli.reconstruct import reconstruction
 from crustline.cli.source import Source, source_options
 
 
@@ -28,11 +28,8 @@ def certify(source: Source, output: Output, strict: bool, method: Method) -> Non
     \b
         crustline certify goose.csv -o more_samples_here.csv
     """
-    _, delaunay, edges = select_edges(source, method, output.quiet)
-
-    from crustline.certify import certify
-
-    certificate = certify(delaunay, edges)
+    with reconstruction(source, method, output.quiet) as made:
+        certificate = made.certificate
     output.write(certificate)
     if output.as_json:
         about = {"input": source.name, "method": method.name, "outputs": list(output.files)}

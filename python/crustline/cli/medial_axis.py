@@ -10,7 +10,7 @@ import numpy as np
 
 from crustline.cli.method import Method, method_options
 from crustline.cli.output import Output, counted, output_options
-from crustline.cli.reconstruct import select_edges
+from crustline.cli.reconstruct import reconstruction
 from crustline.cli.source import Source, source_options
 from crustline.errors import InputError
 
@@ -54,11 +54,8 @@ def medial_axis(
     corners = None if box is None else _corners(box)
     if not (at_least >= 0 and np.isfinite(at_least)):
         raise InputError(f"--prune is {at_least}: give a length of at least 0")
-    points, _, edges = select_edges(source, method, output.quiet)
-
-    from crustline.medial_axis import medial_axis
-
-    axis = _part(medial_axis(points, edges).prune(at_least), part)
+    with reconstruction(source, method, output.quiet) as made:
+        axis = _part(made.medial_axis.prune(at_least), part)
     output.write(axis.curves(corners))
     inner = int(np.count_nonzero(axis.inner))
     counts = {
@@ -69,7 +66,7 @@ def medial_axis(
     words = ("inner edge", "outer edge", "ray")
     output.report(
         f"{source.name}: {', '.join(map(counted, counts.values(), words))}",
-        {"input": source.name, "method": method.name, "points": len(points), **counts},
+        {"input": source.name, "method": method.name, "points": len(made.points), **counts},
     )
 
 

@@ -6,16 +6,11 @@ import functools
 import json
 from collections.abc import Callable
 from dataclasses import dataclass
-from inspect import Parameter, signature
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from crustline.errors import InputError
-
-if TYPE_CHECKING:
-    from crustline.arrays import IntArray
-    from crustline.delaunay import Delaunay
 
 Command = Callable[..., None]
 
@@ -28,21 +23,17 @@ class Method:
     function: Callable[..., Any]
     parameters: dict[str, Any]
 
-    def edges(self, delaunay: Delaunay) -> IntArray:
-        """Return the edges that it selects."""
-        edges: IntArray = self.function(delaunay, **self.parameters)
-        return edges
-
 
 def method_options(command: Command) -> Command:
     """Give a command the options that choose a method; it takes `method: Method`."""
 
     @click.option("--method", default="crust", show_default=True, metavar="NAME",
+                  shell_complete=_matching,
                   help="The method; `crustline methods` lists them.")  # fmt: skip
     @click.option("--beta", type=float, metavar="B", help="The β of a β-skeleton.")
     @click.option(
         "-p", "--parameter", "settings", multiple=True, metavar="NAME=VALUE",
-        help="Any parameter of the method, such as alpha=0.5.",
+        help="Any parameter of the method, such as radius=0.5.",
     )  # fmt: skip
     @functools.wraps(command)
     def run(method: str, beta: float | None, settings: tuple[str, ...], **rest: Any) -> None:
@@ -51,15 +42,21 @@ def method_options(command: Command) -> Command:
     return run
 
 
-def _method(name: str, beta: float | None, settings: tuple[str, ...]) -> Method:
+def _matching(context: click.Context, option: click.Parameter, start: str) -> list[str]:
     from crustline.methods import METHODS
+
+    return [name for name in METHODS if name.startswith(start)]
+
+
+def _method(name: str, beta: float | None, settings: tuple[str, ...]) -> Method:
+    from crustline.methods import METHODS, check_parameters
 
     if name not in METHODS:
         raise InputError(f"no method is called {name!r}: choose one of {', '.join(METHODS)}")
     method = Method(name, METHODS[name], dict(map(_setting, settings)))
     if beta is not None:
         method.parameters["beta"] = beta
-    _check_parameters(method)
+    check_parameters(method.function, method.parameters, name, "add -p {}=VALUE")
     return method
 
 
@@ -73,28 +70,15 @@ def _setting(text: str) -> tuple[str, Any]:
         return name, value
 
 
-def _check_parameters(method: Method) -> None:
-    known = dict(list(signature(method.function).parameters.items())[1:])
-    own = list(known)
-    given = method.parameters
-    for each in given:
-        if each not in own:
-            has = f"it has {', '.join(own)}" if own else "it has none"
-            raise InputError(f"the method {method.name} has no parameter {each!r}: {has}")
-    missing = [each for each in own if known[each].default is Parameter.empty and each not in given]
-    if missing:
-        raise InputError(
-            f"the method {method.name} needs {missing[0]!r}: add -p {missing[0]}=VALUE"
-        )
-
-
 @click.command("methods")
 def list_methods() -> None:
-    """List the methods, each with a line and its reference."""
-    from crustline.methods import METHODS
+    """List the methods, each with a line, its parameters and its reference."""
+    from crustline.methods import METHODS, parameters_of
 
     for name, method in METHODS.items():
         click.echo(f"{name}\n    {_summary(method)}")
+        if own := list(parameters_of(method)):
+            click.echo(f"    Parameters: {', '.join(own)}")
         if reference := _reference(method):
             click.echo(f"    {reference}")
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 import click
 
 from crustline.cli.method import Method, method_options
 from crustline.cli.output import Output, counted, output_options, picture_options
-from crustline.cli.reconstruct import select_edges
+from crustline.cli.reconstruct import reconstruction
 from crustline.cli.source import Source, source_options
 from crustline.errors import InputError
 
@@ -40,13 +38,13 @@ def plot(source: Source, output: Output, show: str, method: Method) -> None:
 
     from crustline.plot import picture
 
-    points = source.read()
-    chosen = partial(method.function, **method.parameters)
-    for file in output.files:
-        picture(points, file, show=layers, method=chosen)
+    with reconstruction(source, method, output.quiet) as made:
+        for file in output.files:
+            picture(made, file, show=layers)
+    count = len(made.points)
     output.report(
-        f"{source.name}: {counted(len(points), 'point')}",
-        {"input": source.name, "method": method.name, "points": len(points), "show": layers},
+        f"{source.name}: {counted(count, 'point')}",
+        {"input": source.name, "method": method.name, "points": count, "show": layers},
     )
 
 
@@ -70,12 +68,10 @@ def smooth(source: Source, output: Output, corner_angle: float, method: Method) 
     """
     if not 0 < corner_angle <= 180:
         raise InputError(f"--corner-angle is {corner_angle}: give degrees in (0, 180]")
-    points, _, edges = select_edges(source, method, output.quiet)
-
-    from crustline.curves import trace
     from crustline.smooth import smooth
 
-    splines = smooth(trace(points, edges), corner_angle=corner_angle)
+    with reconstruction(source, method, output.quiet) as made:
+        splines = smooth(made.curves, corner_angle=corner_angle)
     tolerance = output.settings.get("tolerance")
     pieces = sum(map(len, splines.beziers(tolerance)))
     corners = sum(len(spline.corners) for spline in splines)
@@ -87,7 +83,7 @@ def smooth(source: Source, output: Output, corner_angle: float, method: Method) 
         {
             "input": source.name,
             "method": method.name,
-            "points": len(points),
+            "points": len(made.points),
             "tolerance": tolerance,
             **counts,
         },

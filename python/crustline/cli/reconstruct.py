@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -12,10 +14,7 @@ from crustline.cli.progress import progress_bar
 from crustline.cli.source import Source, source_options
 
 if TYPE_CHECKING:
-    from crustline.arrays import IntArray
-    from crustline.curves import Curves
-    from crustline.delaunay import Delaunay
-    from crustline.points import Points
+    from crustline.reconstruction import Reconstruction
 
 
 @click.command()
@@ -31,34 +30,33 @@ def reconstruct(source: Source, output: Output, method: Method) -> None:
     \b
         crustline reconstruct goose.csv -o goose.geojson -o goose.svg
     """
-    points, delaunay, edges = select_edges(source, method, output.quiet)
-
-    from crustline.curves import trace
-
-    curves = trace(points, edges)
-    output.write(curves)
-    counts = _count(curves, delaunay)
+    with reconstruction(source, method, output.quiet) as made:
+        counts = _count(made)
+    output.write(made.curves)
     output.report(
         f"{source.name}: {_in_words(counts)}",
         {"input": source.name, "method": method.name, **counts},
     )
 
 
-def select_edges(source: Source, method: Method, quiet: bool) -> tuple[Points, Delaunay, IntArray]:
-    """Return the points of a source, their triangulation, and the edges that a method selects."""
+@contextmanager
+def reconstruction(source: Source, method: Method, quiet: bool) -> Iterator[Reconstruction]:
+    """Read a source, and yield what a method makes of it, under a progress bar."""
     from crustline.delaunay import Delaunay
+    from crustline.reconstruction import Reconstruction
 
     points = source.read()
     with progress_bar(quiet) as progress:
-        delaunay = Delaunay(points, progress=progress)
-        return points, delaunay, method.edges(delaunay)
+        delaunay = Delaunay(points, threads=source.threads, progress=progress)
+        yield Reconstruction(delaunay, method.function, **method.parameters)
 
 
-def _count(curves: Curves, delaunay: Delaunay) -> dict[str, int]:
+def _count(made: Reconstruction) -> dict[str, int]:
+    curves = made.curves
     rings = int(curves.closed.sum())
     return {
         "points": len(curves.points),
-        "duplicates": len(delaunay.duplicates),
+        "duplicates": len(made.delaunay.duplicates),
         "rings": rings,
         "open_curves": len(curves) - rings,
         "branches": len(curves.branches),

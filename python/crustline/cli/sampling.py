@@ -10,7 +10,7 @@ import numpy as np
 
 from crustline.cli.method import Method, method_options
 from crustline.cli.output import Output, counted, output_options
-from crustline.cli.reconstruct import select_edges
+from crustline.cli.reconstruct import reconstruction
 from crustline.cli.source import Source, source_options
 from crustline.errors import InputError
 
@@ -175,19 +175,18 @@ def thin(source: Source, r: float, output: Output, method: Method) -> None:
     """
     if not 0 < r <= 1:
         raise InputError(f"-r is {r}: give a number in (0, 1], such as 0.2")
-    points, _, edges = select_edges(source, method, output.quiet)
-
     from crustline.thinning import thin
 
-    kept = points.select(thin(points, edges, r))
+    with reconstruction(source, method, output.quiet) as made:
+        kept = made.points.select(thin(made.delaunay, made.edges, r=r))
     output.write(kept)
     output.report(
-        f"{source.name}: {counted(len(kept), 'point')} of {len(points):,} kept",
+        f"{source.name}: {counted(len(kept), 'point')} of {len(made.points):,} kept",
         {
             "input": source.name,
             "method": method.name,
             "r": r,
-            "points": len(points),
+            "points": len(made.points),
             "kept": len(kept),
         },
     )

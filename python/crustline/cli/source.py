@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -25,6 +24,7 @@ class Source:
     name: str
     format: str | None
     crs: str | None
+    threads: int | None
     settings: dict[str, Any]
 
     def read(self) -> Points:
@@ -41,16 +41,18 @@ def source_options(command: Command) -> Command:
     @click.option("--input-format", metavar="F", help=f"{_names()}, whatever the name says.")
     @click.option("--crs", metavar="C", help="The CRS of the input, such as EPSG:4326.")
     @format_options("read")
-    @threads_option
+    @click.option("--threads", type=click.IntRange(min=1), metavar="N",
+                  help="How many threads to use.")  # fmt: skip
     @functools.wraps(command)
     def run(
         name: str,
         input_format: str | None,
         crs: str | None,
+        threads: int | None,
         given: dict[str, Any],
         **rest: Any,
     ) -> None:
-        command(source=Source(name, input_format, crs, given), **rest)
+        command(source=Source(name, input_format, crs, threads, given), **rest)
 
     return run
 
@@ -86,15 +88,3 @@ def _click_option(option: Option, formats: list[Format]) -> Callable[[Command], 
     return click.option(
         option.spelling, option.name, flag_value=option.constant, default=None, help=help
     )
-
-
-def _set_threads(context: click.Context, option: click.Parameter, value: int | None) -> None:
-    # Every part of the core works in rayon's pool, which is made when it is first used.
-    if value is not None:
-        os.environ["RAYON_NUM_THREADS"] = str(value)
-
-
-threads_option = click.option(
-    "--threads", type=click.IntRange(min=1), metavar="N", help="How many threads to use.",
-    expose_value=False, callback=_set_threads,
-)  # fmt: skip

@@ -18,6 +18,7 @@ from crustline.methods.neighborhoods import (
     gamma_graph,
     relative_neighborhood,
 )
+from crustline.methods.parameters import check_parameters, parameters_of
 from crustline.methods.spanning_tree import minimum_spanning_tree
 
 Method = Callable[..., IntArray]
@@ -49,6 +50,7 @@ __all__ = [
     "alpha_shape",
     "as_selected",
     "beta_skeleton",
+    "check_parameters",
     "connect",
     "crossing_angle_graph",
     "crust",
@@ -57,6 +59,7 @@ __all__ = [
     "minimum_spanning_tree",
     "nn_crust",
     "one_step_crust",
+    "parameters_of",
     "rcgh",
     "relative_neighborhood",
 ]

@@ -1,0 +1,35 @@
+"""What methods ask for beside points: a look at their signatures, before any work is done."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from inspect import Parameter, signature
+from typing import Any
+
+from crustline.errors import InputError
+
+_NAMED = (Parameter.POSITIONAL_OR_KEYWORD, Parameter.KEYWORD_ONLY)
+
+
+def parameters_of(method: Callable[..., Any]) -> dict[str, Parameter]:
+    """Return the parameters of a method after its points, by their names."""
+    return dict(list(signature(method).parameters.items())[1:])
+
+
+def check_parameters(
+    method: Callable[..., Any], given: Mapping[str, Any], name: str, advice: str
+) -> None:
+    """Refuse parameters that a method does not have, and the lack of one that it needs.
+
+    `advice` is how to give one, such as "add -p {}=VALUE".
+    """
+    known = parameters_of(method)
+    own = [key for key, each in known.items() if each.kind in _NAMED]
+    open_ended = any(each.kind is Parameter.VAR_KEYWORD for each in known.values())
+    for key in given:
+        if key not in own and not open_ended:
+            has = f"it has {', '.join(own)}" if own else "it has none"
+            raise InputError(f"the method {name} has no parameter {key!r}: {has}")
+    missing = [key for key in own if known[key].default is Parameter.empty and key not in given]
+    if missing:
+        raise InputError(f"the method {name} needs {missing[0]}: {advice.format(missing[0])}")
