@@ -2,9 +2,8 @@
 
 use crate::delaunay::{Delaunay, Edge};
 use crate::error::Result;
-use crate::parts::{GRAIN, in_parts, split};
+use crate::parts::{GRAIN, each, in_parts, split};
 use crate::progress::{Progress, Stage};
-use rayon::prelude::*;
 
 /// Edges as input rows: i < j in each, sorted, unique.
 pub type Edges = Vec<[u32; 2]>;
@@ -62,7 +61,7 @@ pub fn sort(parts: &[Edges], rows: usize) -> Edges {
     // Inner iteration, here and below: `for` over `flatten` takes twice the time.
     parts.iter().flatten().for_each(|edge| counts[edge[0] as usize / width] += 1);
     let mut sorted = vec![[0, 0]; count];
-    split(&mut sorted, counts).into_par_iter().enumerate().for_each(|(range, sorted)| {
+    each(split(&mut sorted, counts), |range, sorted| {
         sort_range(parts, range * width, width, sorted);
     });
     sorted

@@ -1,4 +1,6 @@
 //! A long row of items in parts: one task takes one part at a time, reports it, and looks whether to stop.
+//!
+//! A single part is worked on where the call is made: waking another thread takes longer than many a call.
 
 use crate::error::Result;
 use crate::progress::Progress;
@@ -25,7 +27,10 @@ pub fn in_parts<T: Send>(
         progress.advance(length)?;
         Ok(made)
     };
-    (0..count.div_ceil(grain)).into_par_iter().map(part).collect()
+    match count.div_ceil(grain) {
+        1 => Ok(vec![part(0)?]),
+        parts => (0..parts).into_par_iter().map(part).collect(),
+    }
 }
 
 /// The `value` of each number below `count`; until it is known there is `empty` in its place.
@@ -39,13 +44,46 @@ pub fn map<T: Clone + Send>(
     value: impl Fn(usize) -> T + Sync,
 ) -> Result<Vec<T>> {
     let mut values = vec![empty; count];
-    values.par_chunks_mut(GRAIN).enumerate().try_for_each(|(k, part)| {
+    try_each(values.chunks_mut(GRAIN).collect(), |k, part| {
         for (j, slot) in part.iter_mut().enumerate() {
             *slot = value(k * GRAIN + j);
         }
         progress.advance(part.len())
     })?;
     Ok(values)
+}
+
+/// Do `work` on each of `parts`, with its number.
+///
+/// # Errors
+/// The first error of `work`.
+pub fn try_each<T: Send>(
+    parts: Vec<T>,
+    work: impl Fn(usize, T) -> Result<()> + Sync + Send,
+) -> Result<()> {
+    if parts.len() <= 1 {
+        return parts.into_iter().try_for_each(|part| work(0, part));
+    }
+    parts.into_par_iter().enumerate().try_for_each(|(k, part)| work(k, part))
+}
+
+/// Do `work`, which cannot fail, on each of `parts`, with its number.
+pub fn each<T: Send>(parts: Vec<T>, work: impl Fn(usize, T) + Sync + Send) {
+    if parts.len() <= 1 {
+        parts.into_iter().for_each(|part| work(0, part));
+    } else {
+        parts.into_par_iter().enumerate().for_each(|(k, part)| work(k, part));
+    }
+}
+
+/// The `value` of each of `items`.
+#[must_use]
+pub fn collect<S: Sync, T: Send>(items: &[S], value: impl Fn(&S) -> T + Sync + Send) -> Vec<T> {
+    if items.len() <= GRAIN {
+        items.iter().map(value).collect()
+    } else {
+        items.par_iter().with_min_len(GRAIN).map(value).collect()
+    }
 }
 
 /// Split `slice` into successive parts of these lengths, which sum to no more than its own.

@@ -6,9 +6,8 @@
 use super::rings::{NONE, Rings};
 use super::slots::HalfEdge;
 use crate::error::Result;
-use crate::parts::split;
+use crate::parts::{each, split, try_each};
 use crate::progress::{Progress, Stage};
-use rayon::prelude::*;
 
 /// Vertices that one task takes at a time.
 const GRAIN: usize = 1 << 13;
@@ -110,7 +109,8 @@ impl Stars {
         let mut neighbors = vec![0; end as usize];
         if end > 0 {
             let parts = split(&mut neighbors, grains(&offsets));
-            parts.into_par_iter().zip(first.par_chunks(GRAIN)).try_for_each(|(part, first)| {
+            let parts = parts.into_iter().zip(first.chunks(GRAIN)).collect();
+            try_each(parts, |_, (part, first)| {
                 collect_part(slots, first, part);
                 progress.advance(first.len())
             })?;
@@ -135,7 +135,7 @@ impl Stars {
     pub fn map<T: Copy + Send>(&self, empty: T, write: impl Fn(u32, &mut [T]) + Sync) -> Vec<T> {
         let mut values = vec![empty; self.half_edges()];
         let parts = split(&mut values, grains(&self.offsets));
-        parts.into_par_iter().enumerate().for_each(|(k, mut part)| {
+        each(parts, |k, mut part| {
             let first = k * GRAIN;
             for v in first..(first + GRAIN).min(self.on_hull.len()) {
                 let (star, rest) = part.split_at_mut(self.star(v as u32).neighbors.len());

@@ -5,7 +5,7 @@
 //! data base", IBM, 1966.
 
 use crate::error::{Error, Result};
-use crate::parts::split;
+use crate::parts::{self, split};
 use crate::point::{Point, lexicographic};
 use crate::progress::{PACE, Progress, Stage};
 use crate::space::bounds::Bounds;
@@ -177,11 +177,10 @@ fn set_duplicates_aside(keys: &mut Vec<Key>, points: &[Point]) -> Vec<[u32; 2]> 
 /// Fetch the points in the order of their keys.
 fn collect(keys: &[Key], points: &[Point], scale: f64) -> Order {
     let point = |key: &Key| points[key.1 as usize].map(|x| x * scale);
-    let keys = keys.par_iter().with_min_len(GRAIN);
     Order {
-        points: keys.clone().map(point).collect(),
-        rows: keys.clone().map(|key| key.1).collect(),
-        codes: keys.map(|key| key.0).collect(),
+        points: parts::collect(keys, point),
+        rows: parts::collect(keys, |key| key.1),
+        codes: parts::collect(keys, |key| key.0),
         duplicates: Vec::new(),
         scale,
     }
