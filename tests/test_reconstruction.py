@@ -1,4 +1,4 @@
-"""A reconstruction makes each part once, when it is asked for; all parts are those of the functions."""
+"""A reconstruction makes each part once, when asked for, and as the functions make it."""
 
 from __future__ import annotations
 
@@ -149,9 +149,10 @@ def test_nothing_keeps_a_triangulation_alive() -> None:
         cl.local_feature_size(delaunay)
         made = cl.Reconstruction(delaunay)
         results.append(made.certificate)
-        gone = [weakref.ref(delaunay), weakref.ref(made)]
+        first, second = weakref.ref(delaunay), weakref.ref(made)
         del delaunay, made
-        assert [each() for each in gone] == [None, None]
+        assert first() is None
+        assert second() is None
         assert len(results) == 4
     finally:
         gc.enable()
