@@ -15,6 +15,7 @@ from crustline.shapes import SmoothCurve
 from crustline.shapes.bezier import bezier_loop
 from crustline.shapes.ratio import is_r_sample, sampling_ratio
 from crustline.shapes.sampling import Mode, Sample, r_sample, sample_for_error
+from crustline.theory import guaranteed_r
 from crustline.thinning import thin
 
 FloatArray = npt.NDArray[np.float64]
@@ -126,7 +127,7 @@ def test_observation_6_two_curves_are_1_sampled_by_the_same_points() -> None:
 def test_theorem_13_error_sample_keeps_the_polygon_near(curve: SmoothCurve) -> None:
     for d in (0.1, 1e-2, 1e-4):
         sample = sample_for_error(curve, d, seed=4)
-        assert sampling_ratio(curve, sample) <= 0.252
+        assert sampling_ratio(curve, sample) <= guaranteed_r("crust")
         assert _distance_to_polygon(curve, sample) <= d
 
 

@@ -598,7 +598,7 @@ def test_plot_draws_the_beziers() -> None:
 
 @pytest.mark.parametrize("angle", [0, -1, 181, float("nan")])
 def test_refuses_corner_angles(angle: float) -> None:
-    with pytest.raises(InputError, match=r"corner_angle is .*\(0, 180\]"):
+    with pytest.raises(InputError, match=r"corner_angle must be .*\(0, 180\]"):
         ring(circle(9), corner_angle=angle)
 
 
@@ -615,13 +615,13 @@ def test_refuses_bad_input(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="t is inf"):
         ring(points).point(np.inf)
     for tolerance in (0, -1, np.nan, np.inf):
-        with pytest.raises(InputError, match="tolerance is"):
+        with pytest.raises(InputError, match="tolerance must be"):
             line.beziers(tolerance)
-        with pytest.raises(InputError, match="tolerance is"):
+        with pytest.raises(InputError, match="tolerance must be"):
             line[0].sample(tolerance=tolerance)
-    with pytest.raises(InputError, match="count is 1"):
+    with pytest.raises(InputError, match=r"count must be .*, not 1"):
         line[0].sample(1)
-    with pytest.raises(InputError, match=r"count is 2\.5"):
+    with pytest.raises(InputError, match=r"count must be .*, not 2\.5"):
         line[0].sample(2.5)  # type: ignore[arg-type]
     with pytest.raises(InputError, match="give one"):
         line[0].sample()

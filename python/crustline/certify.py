@@ -17,15 +17,13 @@ from crustline.methods import as_selected, crust
 from crustline.notebook import paragraphs
 from crustline.points import Points
 from crustline.records import Record
-from crustline.theory import guaranteed_r, sample_angle
+from crustline.theory import BETA, guaranteed_r, sample_angle
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["BETA", "MARGIN", "Certificate", "certify"]
+__all__ = ["MARGIN", "Certificate", "certify"]
 
-#: The β of Theorem 20.
-BETA = 1.70
 #: By how much an estimate of the sampling ratio may be too small before a guarantee would be wrong.
 MARGIN = 0.15
 
@@ -296,7 +294,8 @@ def _theorem(
 ) -> tuple[str, float, IntArray]:
     """Return the theorem for edges, its r, and if there is none the crust's edges."""
     if is_beta_skeleton:
-        return "Theorem 20 (β-skeleton, β = 1.70)", guaranteed_r("beta_skeleton", BETA), edges
+        theorem = f"Theorem 20 (β-skeleton, β = {BETA:.2f})"
+        return theorem, guaranteed_r("beta_skeleton", BETA), edges
     selected = crust(delaunay)
     if np.array_equal(edges, selected):
         return "Theorems 14 and 15 (crust)", guaranteed_r("crust"), edges

@@ -21,7 +21,7 @@ from crustline.errors import InputError
 from crustline.methods import as_selected
 from crustline.points import Points
 from crustline.records import Record
-from crustline.scalars import as_choice, as_real
+from crustline.scalars import as_choice, as_length
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -208,7 +208,7 @@ class MedialAxis(Record):
         >>> axis.prune() is not axis, len(axis.prune().edges), len(axis.prune(100.0).edges)
         (True, 0, 0)
         """
-        as_real("at_least", at_least, "a length of at least 0", lambda x: x >= 0)
+        at_least = as_length("at_least", at_least)
         of_edges, of_rays = self.residuals(kind)
         kept, rays = of_edges >= at_least, of_rays >= at_least
         used = np.zeros(len(self.vertices), bool)

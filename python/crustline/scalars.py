@@ -14,6 +14,8 @@ __all__ = [
     "LARGEST",
     "SMALLEST",
     "as_choice",
+    "as_degrees",
+    "as_length",
     "as_positive",
     "as_real",
     "as_rtol",
@@ -44,6 +46,11 @@ def as_positive(name: str, value: object) -> float:
     return as_real(name, value, "positive and finite", lambda x: x > 0)
 
 
+def as_length(name: str, value: object) -> float:
+    """Return a finite number of at least 0 as float."""
+    return as_real(name, value, "a length of at least 0", lambda x: x >= 0)
+
+
 def as_size(name: str, value: object) -> float:
     """Return a positive number that is a size of a smooth curve."""
     wanted = f"between {SMALLEST:g} and {LARGEST:g}"
@@ -54,6 +61,11 @@ def as_size(name: str, value: object) -> float:
 def as_share(name: str, value: object) -> float:
     """Return a number above 0, and 1 at the most."""
     return as_real(name, value, "in (0, 1]", lambda x: 0 < x <= 1)
+
+
+def as_degrees(name: str, value: object) -> float:
+    """Return the least turn of a corner, in degrees."""
+    return as_real(name, value, "in degrees, in (0, 180]", lambda x: 0 < x <= 180)
 
 
 def as_rtol(value: object) -> float:

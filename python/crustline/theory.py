@@ -22,8 +22,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from crustline.errors import InputError
+from crustline.scalars import as_positive
 
 __all__ = [
+    "BETA",
     "best_beta",
     "beta",
     "central_angle",
@@ -42,6 +44,9 @@ __all__ = [
     "tangent_angle",
     "vertex_angle",
 ]
+
+#: The β of Theorem 20: near the best, see `best_beta`.
+BETA = 1.70
 
 Floats: TypeAlias = NDArray[np.float64]
 Method: TypeAlias = str | Callable[..., Any]
@@ -237,15 +242,15 @@ def spacing_for_error(distance: float, feature_size: ArrayLike) -> Floats:
     Raises
     ------
     InputError
-        If the distance is not positive, or a local feature size is negative or not a number.
+        If the distance is not positive and finite, or a local feature size is negative or no
+        number.
 
     Examples
     --------
     >>> spacing_for_error(0.02, [1.0, 4.0, 0.01]).tolist()
     [0.2, 0.4, 0.01]
     """
-    if not distance > 0:
-        raise InputError(f"distance must be positive, got {distance}")
+    distance = as_positive("distance", distance)
     sizes = np.asarray(feature_size, np.float64)
     if not np.all(sizes >= 0):
         raise InputError(f"feature_size must be 0 or more, got {sizes[~(sizes >= 0)].flat[0]}")
@@ -473,7 +478,7 @@ def _unknown(method: Method, known: str) -> InputError:
     return InputError(f"the paper proves nothing of this kind for {_name(method)}: ask for {known}")
 
 
-def containing_r(method: Method, beta: float = 1.70) -> float:
+def containing_r(method: Method, beta: float = BETA) -> float:
     """Return the r below which a method finds every edge between samples adjacent on the curve.
 
     It may find other edges too: see `guaranteed_r` for the r below which it does not.
@@ -518,7 +523,7 @@ def containing_r(method: Method, beta: float = 1.70) -> float:
     raise _unknown(method, "delaunay, crust, one_step_crust, beta_skeleton or gabriel")
 
 
-def excluding_r(method: Method, beta: float = 1.70) -> float:
+def excluding_r(method: Method, beta: float = BETA) -> float:
     """Return the r below which a method finds no edge between non-adjacent samples.
 
     Parameters
@@ -555,7 +560,7 @@ def excluding_r(method: Method, beta: float = 1.70) -> float:
     raise _unknown(method, "crust or beta_skeleton")
 
 
-def guaranteed_r(method: Method, beta: float = 1.70) -> float:
+def guaranteed_r(method: Method, beta: float = BETA) -> float:
     """Return the r below which a method's answer is the polygonal reconstruction of the curve.
 
     Parameters

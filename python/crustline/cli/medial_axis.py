@@ -13,6 +13,7 @@ from crustline.cli.output import Output, counted, output_options
 from crustline.cli.reconstruct import reconstruction
 from crustline.cli.source import Source, source_options
 from crustline.errors import InputError
+from crustline.scalars import as_length
 
 if TYPE_CHECKING:
     from crustline.medial_axis import MedialAxis
@@ -52,8 +53,7 @@ def medial_axis(
         crustline medial-axis goose.csv -o axis.geojson --inner --prune 2
     """
     corners = None if box is None else _corners(box)
-    if not (at_least >= 0 and np.isfinite(at_least)):
-        raise InputError(f"--prune is {at_least}: give a length of at least 0")
+    at_least = as_length("--prune", at_least)
     with reconstruction(source, method, output.quiet) as made:
         axis = _part(made.medial_axis.prune(at_least), part)
     output.write(axis.curves(corners))

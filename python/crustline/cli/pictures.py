@@ -9,6 +9,7 @@ from crustline.cli.output import Output, counted, output_options, picture_option
 from crustline.cli.reconstruct import reconstruction
 from crustline.cli.source import Source, source_options
 from crustline.errors import InputError
+from crustline.scalars import as_degrees
 
 LAYERS = (
     "points", "delaunay", "voronoi", "crust", "medial-axis", "lfs", "certificate", "indices",
@@ -66,8 +67,7 @@ def smooth(source: Source, output: Output, corner_angle: float, method: Method) 
     \b
         crustline smooth goose.csv -o goose.svg --tolerance 0.1
     """
-    if not 0 < corner_angle <= 180:
-        raise InputError(f"--corner-angle is {corner_angle}: give degrees in (0, 180]")
+    corner_angle = as_degrees("--corner-angle", corner_angle)
     from crustline.smooth import smooth
 
     with reconstruction(source, method, output.quiet) as made:

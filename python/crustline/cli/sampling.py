@@ -13,6 +13,7 @@ from crustline.cli.output import Output, counted, output_options
 from crustline.cli.reconstruct import reconstruction
 from crustline.cli.source import Source, source_options
 from crustline.errors import InputError
+from crustline.scalars import as_positive, as_share
 
 if TYPE_CHECKING:
     from crustline.shapes import SmoothCurve
@@ -59,7 +60,7 @@ def sample(
         blob:7,roughness=0.2
 
     Writes the points, in order along the curve, with t, where on the curve they are. The crust of
-    samples with R < 0.252 is sure to be the curve's polygon.
+    samples with R < 0.253 is sure to be the curve's polygon.
 
     \b
         crustline sample ellipse:2,1 -r 0.25 -o points.csv
@@ -84,14 +85,13 @@ def _take(
 ) -> Sample:
     from crustline.shapes.sampling import r_sample, sample_for_error
 
+    share = None if r is None else as_share("-r", r)
     if error is not None:
-        if not (error > 0 and np.isfinite(error)):
-            raise InputError(f"--error is {error}: give a distance above 0")
-        options = {} if r is None else {"r": r}
-        return sample_for_error(curve, error, seed=seed, mode=mode, **options)
-    if r is None:
+        error = as_positive("--error", error)
+        return sample_for_error(curve, error, r=share, seed=seed, mode=mode)
+    if share is None:
         raise InputError("how dense the samples are is not said: add -r R, such as -r 0.25")
-    return r_sample(curve, r, seed, mode)
+    return r_sample(curve, share, seed, mode)
 
 
 def _curve(spec: str) -> SmoothCurve:
@@ -173,8 +173,7 @@ def thin(source: Source, r: float, output: Output, method: Method) -> None:
     \b
         crustline thin scan.csv -r 0.2 -o fewer.csv
     """
-    if not 0 < r <= 1:
-        raise InputError(f"-r is {r}: give a number in (0, 1], such as 0.2")
+    r = as_share("-r", r)
     from crustline.thinning import thin
 
     with reconstruction(source, method, output.quiet) as made:

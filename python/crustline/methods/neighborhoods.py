@@ -10,11 +10,12 @@ from numpy.typing import ArrayLike
 from crustline.arrays import IntArray
 from crustline.delaunay import Delaunay, as_delaunay
 from crustline.scalars import as_choice, as_positive, as_real
+from crustline.theory import BETA
 
 
 def beta_skeleton(
     points: ArrayLike | Delaunay,
-    beta: float = 1.70,
+    beta: float = BETA,
     *,
     kind: Literal["circle", "lune"] = "circle",
 ) -> IntArray:

@@ -14,10 +14,9 @@ from crustline.scalars import as_positive, as_share, as_whole
 from crustline.shapes.curve import SmoothCurve
 from crustline.shapes.ratio import Allowance, supremum
 from crustline.shapes.walk import Walk, tables
+from crustline.theory import guaranteed_r, spacing_for_error
 
 Mode = Literal["sparsest", "random"]
-# The paper's r for the crust (Theorem 15).
-GUARANTEED = 0.252
 # Steps are made shorter by this share, so that the proof by `sampling_ratio`, whose own error is
 # 1e-4, goes through.
 MARGIN = 3e-4
@@ -68,8 +67,8 @@ def r_sample(
     curve : SmoothCurve
         What to sample; each of its loops gets samples.
     r : float
-        In (0, 1], the paper's range. Below 0.252 the crust of the samples is sure to reconstruct
-        the curve.
+        In (0, 1], the paper's range. Below `guaranteed_r("crust")`, 0.2533, the crust of the
+        samples is sure to reconstruct the curve.
     seed : int, optional
         Seeds `numpy.random.default_rng`, which draws where each loop's first sample lies, and the
         random steps. With None each loop starts at its t = 0, and random steps differ from call to
@@ -117,7 +116,7 @@ def sample_for_error(
     curve: SmoothCurve,
     d: float,
     *,
-    r: float = GUARANTEED,
+    r: float | None = None,
     seed: int | None = None,
     mode: Mode = "sparsest",
 ) -> Sample:
@@ -130,10 +129,10 @@ def sample_for_error(
     d : float
         The largest distance allowed from a point of the curve to the reconstruction, in the units
         of the curve.
-    r : float
-        In (0, 1]. The samples are also an r-sample. The default is the r for which the paper proves
-        that the crust finds the reconstruction (Theorem 15); a larger one gives fewer samples where
-        d is large.
+    r : float, optional
+        In (0, 1]. The samples are also an r-sample. By default `guaranteed_r("crust")`, up to which
+        the crust is proven to find the reconstruction; a larger one gives fewer samples where d is
+        large.
     seed, mode
         As for `r_sample`.
 
@@ -159,9 +158,13 @@ def sample_for_error(
     >>> [len(sample_for_error(circle(), d)) for d in (1e-1, 1e-3, 1e-5)]
     [13, 71, 703]
     """
-    r = as_share("r", r)
+    share = guaranteed_r("crust") if r is None else as_share("r", r)
     d = as_positive("d", d)
-    return _sample(curve, lambda lfs: np.minimum(np.sqrt(2 * d * lfs), r * lfs), r, seed, mode)
+
+    def allowance(lfs: FloatArray) -> FloatArray:
+        return np.minimum(spacing_for_error(d, lfs), share * lfs)
+
+    return _sample(curve, allowance, share, seed, mode)
 
 
 def _sample(

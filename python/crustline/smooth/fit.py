@@ -14,6 +14,7 @@ References
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal, get_args
@@ -23,6 +24,7 @@ import numpy as np
 from crustline.arrays import FloatArray, IntArray
 from crustline.curves import Curve, Curves
 from crustline.errors import InputError, missing_extra
+from crustline.scalars import as_degrees
 from crustline.smooth.cubics import Run
 from crustline.smooth.spline import Spline
 from crustline.smooth.splines import Splines
@@ -98,13 +100,11 @@ def smooth(
     (True, 1.0)
     """
     _require_scipy()
-    if not 0 < corner_angle <= 180:
-        raise InputError(f"corner_angle is {corner_angle}: choose degrees in (0, 180]")
+    angle = math.radians(as_degrees("corner_angle", corner_angle))
     if ends not in get_args(Ends):
         raise InputError(f"ends is {ends!r}: choose one of {', '.join(get_args(Ends))}")
     if not isinstance(curves, Curves):
         raise InputError(f"curves is {curves!r:.60}: pass what trace or reconstruct returns")
-    angle = float(np.radians(corner_angle))
     splines = (_spline(_line(curve, angle), ends == "natural") for curve in curves)
     return Splines(curves, tuple(splines))
 

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from crustline.arrays import FloatArray, IntArray
 from crustline.errors import InputError
+from crustline.scalars import as_positive, as_whole
 from crustline.smooth.beziers import BezierPath, fewest_pieces
 
 if TYPE_CHECKING:
@@ -131,11 +132,10 @@ class Spline:
         if (count is None) == (tolerance is None):
             raise InputError("sample takes either a count or a tolerance: give one of them")
         if tolerance is not None:
-            return self.point(self._flat(_positive(tolerance)))
+            return self.point(self._flat(as_positive("tolerance", tolerance)))
         least = 1 if self.closed else 2
-        if not isinstance(count, int | np.integer) or count < least:
-            raise InputError(f"count is {count!r}: choose a whole number of at least {least}")
-        return self.point(np.linspace(0, 1, int(count), endpoint=not self.closed))
+        number = as_whole("count", count, least)
+        return self.point(np.linspace(0, 1, number, endpoint=not self.closed))
 
     def beziers(self, tolerance: float | None = None) -> FloatArray:
         """Return the curve as cubic Bézier pieces, shape (p, 4, 2): see `Splines.beziers`."""
@@ -189,18 +189,12 @@ class Spline:
         return f"<Spline: {kind} of {len(self)} points{corners}>"
 
 
-def _positive(tolerance: float) -> float:
-    if not 0 < tolerance < np.inf:
-        raise InputError(f"tolerance is {tolerance}: choose a positive number, in the points' unit")
-    return float(tolerance)
-
-
 def bezier_pieces(splines: Sequence[Spline], tolerance: float | None) -> list[FloatArray]:
     """Return the control points of each spline, all of them fitted side by side."""
     paths = [spline._path for spline in splines]
     controls = [path.control for path in paths]
     if tolerance is not None and paths:
-        controls = _few(paths, splines, _positive(tolerance))
+        controls = _few(paths, splines, as_positive("tolerance", tolerance))
     return [
         np.ldexp(control, spline._exponent)
         for control, spline in zip(controls, splines, strict=True)
