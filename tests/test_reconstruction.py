@@ -1,4 +1,4 @@
-"""A reconstruction makes each part once, when asked for, and as the functions make it."""
+"""A reconstruction makes each part once, when it is asked for, as the functions make it."""
 
 from __future__ import annotations
 
