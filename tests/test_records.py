@@ -123,3 +123,31 @@ def test_a_notebooks_table_is_escaped_and_short() -> None:
 @pytest.mark.parametrize("name", ["Curves", "MedialAxis"])
 def test_notebooks_show_a_picture(name: str) -> None:
     assert RESULTS[name](RING)._repr_svg_().startswith("<svg")
+
+
+CURVES = {
+    "circle": cl.shapes.circle(2),
+    "ellipse": cl.shapes.ellipse(2, 1),
+    "stadium": cl.shapes.stadium(2, 1),
+    "trefoil": cl.shapes.trefoil(),
+    "blob": cl.shapes.blob(3),
+    "superformula": cl.shapes.superformula(4, 2, 4, 4),
+    "fourier": cl.shapes.fourier([0, 1, 0.1, 0]),
+    "spline": cl.shapes.spline(RING[:5]),
+    "beziers": cl.shapes.two_octagons_joined(),
+    "moved": cl.shapes.circle().moved(scale=2, angle=1, offset=(3, 4)) + cl.shapes.circle(),
+}
+
+
+@pytest.mark.parametrize("name", CURVES)
+def test_smooth_curves_are_pickled_and_copied(name: str) -> None:
+    curve, t = CURVES[name], np.arange(24) / 24
+    for duplicate in (pickle.loads(pickle.dumps(curve)), copy.deepcopy(curve)):
+        for own, other in zip(curve.derivatives(t), duplicate.derivatives(t), strict=True):
+            assert np.array_equal(own, other)
+
+
+def test_splines_are_pickled_and_copied() -> None:
+    splines = cl.smooth(cl.trace(RING, EDGES))
+    for duplicate in (pickle.loads(pickle.dumps(splines)), copy.deepcopy(splines)):
+        assert np.array_equal(duplicate.beziers()[0], splines.beziers()[0])

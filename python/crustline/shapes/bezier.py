@@ -3,29 +3,30 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import numpy as np
 
 from crustline.arrays import FloatArray
 from crustline.errors import InputError
-from crustline.shapes.curve import Loop, refuse_extent, unit
+from crustline.shapes.curve import Loop, Three, refuse_extent, unit
 
 
 def bezier_loop(control: FloatArray) -> Loop:
     """Return the loop of cubic pieces with control points (s, 4, 2), each a share 1/s of u."""
+    first = 3 * len(control) * np.diff(control, axis=1)
+    second = 2 * len(control) * np.diff(first, axis=1)
+    return Loop(partial(_cubics, control, first, second), pieces=len(control))
+
+
+def _cubics(control: FloatArray, first: FloatArray, second: FloatArray, u: FloatArray) -> Three:
     s = len(control)
-    first = 3 * s * np.diff(control, axis=1)
-    second = 2 * s * np.diff(first, axis=1)
-
-    def derivatives(u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        row = np.minimum((u * s).astype(np.int64), s - 1)
-        v = (u * s - row)[:, None]
-        w = 1 - v
-        c, d, e = control[row], first[row], second[row]
-        p = w**3 * c[:, 0] + 3 * v * w * (w * c[:, 1] + v * c[:, 2]) + v**3 * c[:, 3]
-        return p, w * w * d[:, 0] + 2 * v * w * d[:, 1] + v * v * d[:, 2], w * e[:, 0] + v * e[:, 1]
-
-    return Loop(derivatives, pieces=s)
+    row = np.minimum((u * s).astype(np.int64), s - 1)
+    v = (u * s - row)[:, None]
+    w = 1 - v
+    c, d, e = control[row], first[row], second[row]
+    p = w**3 * c[:, 0] + 3 * v * w * (w * c[:, 1] + v * c[:, 2]) + v**3 * c[:, 3]
+    return p, w * w * d[:, 0] + 2 * v * w * d[:, 1] + v * v * d[:, 2], w * e[:, 0] + v * e[:, 1]
 
 
 def smoothed(control: FloatArray, tolerance: float, name: str) -> FloatArray:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from functools import partial
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +18,7 @@ from crustline.shapes.curve import (
     Derivatives,
     Loop,
     SmoothCurve,
+    Three,
     refuse_extent,
     turned,
 )
@@ -29,7 +32,7 @@ MOST_WAVES, ROUGHEST = 1000, 3.0
 def circle(r: float = 1.0) -> SmoothCurve:
     """Return the circle of radius r about the origin. Its medial axis is its center."""
     r = as_size("r", r)
-    return SmoothCurve((Loop(_elliptic(r, r), axis=np.zeros((1, 2))),))
+    return SmoothCurve((Loop(partial(_elliptic, r, r), axis=np.zeros((1, 2))),))
 
 
 def ellipse(a: float, b: float) -> SmoothCurve:
@@ -50,16 +53,15 @@ def ellipse(a: float, b: float) -> SmoothCurve:
     if a == b:
         return circle(a)
     end = [(a * a - b * b) / a, 0.0] if a > b else [0.0, (b * b - a * a) / b]
-    return SmoothCurve((Loop(_elliptic(a, b), axis=np.array([[-end[0], -end[1]], end]) + 0.0),))
+    return SmoothCurve(
+        (Loop(partial(_elliptic, a, b), axis=np.array([[-end[0], -end[1]], end]) + 0.0),)
+    )
 
 
-def _elliptic(a: float, b: float) -> Derivatives:
-    def derivatives(u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        c, s = np.cos(TAU * u), np.sin(TAU * u)
-        point = np.stack([a * c, b * s], -1)
-        return point, TAU * np.stack([-a * s, b * c], -1), -(TAU**2) * point
-
-    return derivatives
+def _elliptic(a: float, b: float, u: FloatArray) -> Three:
+    c, s = np.cos(TAU * u), np.sin(TAU * u)
+    point = np.stack([a * c, b * s], -1)
+    return point, TAU * np.stack([-a * s, b * c], -1), -(TAU**2) * point
 
 
 def stadium(length: float, radius: float) -> SmoothCurve:
@@ -77,21 +79,21 @@ def stadium(length: float, radius: float) -> SmoothCurve:
     [[-2.0, 0.0], [2.0, 0.0]]
     """
     length, radius = as_size("length", length), as_size("radius", radius)
-    half, turn = length / 2, math.pi * radius
-    total = 2 * (length + turn)
+    axis = np.array([[-length / 2, 0.0], [length / 2, 0.0]])
+    return SmoothCurve((Loop(partial(_stadium, length, radius), 4, axis),))
 
-    def derivatives(u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        second = u >= 0.5
-        s = (u - 0.5 * second) * total  # from the lower left joint, or its mirror image, on
-        round_ = s >= length
-        angle = np.where(round_, (s - length) / radius, 0.0) - math.pi / 2
-        out = np.stack([np.cos(angle), np.sin(angle)], -1)
-        point = radius * out + np.stack([np.minimum(s, length) - half, 0 * s], -1)
-        bend = -(total**2) / radius * out * round_[:, None]
-        sign = np.where(second, -1.0, 1.0)[:, None]
-        return sign * point, sign * total * turned(out), sign * bend
 
-    return SmoothCurve((Loop(derivatives, 4, np.array([[-half, 0.0], [half, 0.0]])),))
+def _stadium(length: float, radius: float, u: FloatArray) -> Three:
+    total = 2 * (length + math.pi * radius)
+    second = u >= 0.5
+    s = (u - 0.5 * second) * total  # from the lower left joint, or its mirror image, on
+    round_ = s >= length
+    angle = np.where(round_, (s - length) / radius, 0.0) - math.pi / 2
+    out = np.stack([np.cos(angle), np.sin(angle)], -1)
+    point = radius * out + np.stack([np.minimum(s, length) - length / 2, 0 * s], -1)
+    bend = -(total**2) / radius * out * round_[:, None]
+    sign = np.where(second, -1.0, 1.0)[:, None]
+    return sign * point, sign * total * turned(out), sign * bend
 
 
 def trefoil(lobes: int = 3, depth: float = 0.3, radius: float = 1.0) -> SmoothCurve:
@@ -115,12 +117,14 @@ def trefoil(lobes: int = 3, depth: float = 0.3, radius: float = 1.0) -> SmoothCu
     if not 0 <= (depth := as_real("depth", depth, "in [0, 1)")) < 1:
         raise InputError(f"depth must be in [0, 1), not {depth}")
 
-    def polar(phi: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        wave = depth * radius * np.cos(lobes * phi)
-        slope = -depth * radius * lobes * np.sin(lobes * phi)
-        return radius + wave, slope, -(lobes**2) * wave
+    polar = partial(_lobes, lobes, depth * radius, radius)
+    return SmoothCurve((Loop(partial(_polar, polar), pieces=lobes),))
 
-    return SmoothCurve((Loop(_polar(polar), pieces=lobes),))
+
+def _lobes(lobes: int, depth: float, radius: float, phi: FloatArray) -> Three:
+    wave = depth * np.cos(lobes * phi)
+    slope = -depth * lobes * np.sin(lobes * phi)
+    return radius + wave, slope, -(lobes**2) * wave
 
 
 def blob(
@@ -158,14 +162,16 @@ def blob(
     draw = np.random.default_rng(seed).standard_normal((2, harmonics)) / k
     wave = draw * (roughness / math.sqrt(np.sum(1.0 / k**2)))
 
-    def polar(phi: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        c, s = np.cos(np.outer(phi, k)), np.sin(np.outer(phi, k))
-        log1 = (k * s) @ -wave[0] + (k * c) @ wave[1]
-        log2 = (k * k * c) @ -wave[0] - (k * k * s) @ wave[1]
-        r = radius * np.exp(c @ wave[0] + s @ wave[1])
-        return r, r * log1, r * (log2 + log1**2)
+    return SmoothCurve((Loop(partial(_polar, partial(_waves, wave, radius)), pieces=harmonics),))
 
-    return SmoothCurve((Loop(_polar(polar), pieces=harmonics),))
+
+def _waves(wave: FloatArray, radius: float, phi: FloatArray) -> Three:
+    k = np.arange(1, wave.shape[1] + 1)
+    c, s = np.cos(np.outer(phi, k)), np.sin(np.outer(phi, k))
+    log1 = (k * s) @ -wave[0] + (k * c) @ wave[1]
+    log2 = (k * k * c) @ -wave[0] - (k * k * s) @ wave[1]
+    r = radius * np.exp(c @ wave[0] + s @ wave[1])
+    return r, r * log1, r * (log2 + log1**2)
 
 
 def superformula(
@@ -203,16 +209,19 @@ def superformula(
         raise InputError(f"m must be an even whole number, not {m}: other curves do not close")
     n2, n3 = _as_exponent("n2", n2), _as_exponent("n3", n3)
     a, b = as_size("a", a), as_size("b", b)
-    k, p = m / 4, -1 / n1
-
-    def polar(phi: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        c, s = np.cos(k * phi), np.sin(k * phi)
-        f, f1, f2 = _power(c, -k * s, -k * k * c, n2, a) + _power(s, k * c, -k * k * s, n3, b)
-        bend = p * (p - 1) * f ** (p - 2) * f1**2 + p * f ** (p - 1) * f2
-        return f**p, p * f ** (p - 1) * f1, bend
-
+    polar = partial(_superformula, m / 4, -1 / n1, (n2, n3), (a, b))
     _refuse_radii(polar, max(m, 1))
-    return SmoothCurve((Loop(_polar(polar), pieces=max(m, 1)),))
+    return SmoothCurve((Loop(partial(_polar, polar), pieces=max(m, 1)),))
+
+
+def _superformula(
+    k: float, p: float, n: tuple[float, float], axes: tuple[float, float], phi: FloatArray
+) -> Three:
+    c, s = np.cos(k * phi), np.sin(k * phi)
+    one = _power(c, -k * s, -k * k * c, n[0], axes[0])
+    f, f1, f2 = one + _power(s, k * c, -k * k * s, n[1], axes[1])
+    bend = p * (p - 1) * f ** (p - 2) * f1**2 + p * f ** (p - 1) * f2
+    return f**p, p * f ** (p - 1) * f1, bend
 
 
 def _as_exponent(name: str, value: float) -> float:
@@ -240,15 +249,12 @@ def _power(x: FloatArray, x1: FloatArray, x2: FloatArray, n: float, a: float) ->
     return np.stack([low * y * y, first, second])
 
 
-def _polar(polar: Derivatives) -> Derivatives:
-    def derivatives(u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        phi = TAU * u
-        r, r1, r2 = (x[:, None] for x in polar(phi))
-        out = np.stack([np.cos(phi), np.sin(phi)], -1)
-        side = turned(out)
-        return r * out, TAU * (r1 * out + r * side), TAU**2 * ((r2 - r) * out + 2 * r1 * side)
-
-    return derivatives
+def _polar(polar: Derivatives, u: FloatArray) -> Three:
+    phi = TAU * u
+    r, r1, r2 = (x[:, None] for x in polar(phi))
+    out = np.stack([np.cos(phi), np.sin(phi)], -1)
+    side = turned(out)
+    return r * out, TAU * (r1 * out + r * side), TAU**2 * ((r2 - r) * out + 2 * r1 * side)
 
 
 def fourier(coefficients: npt.ArrayLike) -> SmoothCurve:
@@ -288,14 +294,15 @@ def fourier(coefficients: npt.ArrayLike) -> SmoothCurve:
     as_size("the largest coefficient besides the first", float(np.abs(c[1:]).max()))
     # fftfreq calls the highest frequency of an even row negative; one coefficient of two is the
     # positive one.
-    k = np.fft.fftfreq(len(c), 1 / len(c)) if len(c) != 2 else np.array([0.0, 1.0])
+    k = [0.0, 1.0] if len(c) == 2 else np.fft.fftfreq(len(c), 1 / len(c))
 
-    def derivatives(u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        wave = np.exp(1j * TAU * np.outer(u, k))
-        p, d1, d2 = (_plane(wave @ (c * (1j * TAU * k) ** order)) for order in range(3))
-        return p, d1, d2
+    return SmoothCurve((Loop(partial(_fourier, c, np.array(k, np.float64)), pieces=len(c)),))
 
-    return SmoothCurve((Loop(derivatives, pieces=len(c)),))
+
+def _fourier(c: npt.NDArray[np.complex128], k: FloatArray, u: FloatArray) -> Three:
+    wave = np.exp(1j * TAU * np.outer(u, k))
+    p, d1, d2 = (_plane(wave @ (c * (1j * TAU * k) ** order)) for order in range(3))
+    return p, d1, d2
 
 
 def spline(points: npt.ArrayLike) -> SmoothCurve:
@@ -333,7 +340,11 @@ def spline(points: npt.ArrayLike) -> SmoothCurve:
         raise missing_extra("smooth", "scipy") from None
     knots = np.concatenate([[0.0], np.cumsum(chords)])
     cubic = CubicSpline(knots / knots[-1], closed, bc_type="periodic")
-    return SmoothCurve((Loop(lambda u: (cubic(u), cubic(u, 1), cubic(u, 2)), pieces=len(rows)),))
+    return SmoothCurve((Loop(partial(_cubic, cubic), pieces=len(rows)),))
+
+
+def _cubic(cubic: Any, u: FloatArray) -> Three:
+    return cubic(u), cubic(u, 1), cubic(u, 2)
 
 
 def _plane(z: npt.NDArray[np.complex128]) -> FloatArray:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,7 +18,8 @@ from crustline.scalars import LARGEST, as_real, as_rtol, as_size
 if TYPE_CHECKING:
     from crustline.shapes.medial_axis import CurveMedialAxis
 
-Derivatives = Callable[[FloatArray], tuple[FloatArray, FloatArray, FloatArray]]
+Three = tuple[FloatArray, FloatArray, FloatArray]
+Derivatives = Callable[[FloatArray], Three]
 #: Extents of smooth curves: some more than their parameters may say.
 NARROWEST, WIDEST = 1e-65, 1e65
 #: Extents as shares of the coordinates, at the least: rounding is a millionth of them.
@@ -32,7 +34,7 @@ class Loop:
     ----------
     derivatives : callable
         Takes u of shape (k,), gives three arrays of shape (k, 2): the point, its first and its
-        second derivative by u.
+        second derivative by u. Curves can be pickled if it can.
     pieces : int
         How many pieces of equal length in u it is made of; a dozen points of each must show the
         loop's features.
@@ -49,12 +51,13 @@ class Loop:
         c, s = scale * math.cos(angle), scale * math.sin(angle)
         turn = np.array([[c, s], [-s, c]])
 
-        def derivatives(u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-            p, d1, d2 = self.derivatives(u)
-            return p @ turn + offset, d1 @ turn, d2 @ turn
-
         axis = None if self.axis is None else self.axis @ turn + offset
-        return Loop(derivatives, self.pieces, axis)
+        return Loop(partial(_moved, self.derivatives, turn, offset), self.pieces, axis)
+
+
+def _moved(of: Derivatives, turn: FloatArray, offset: FloatArray, u: FloatArray) -> Three:
+    p, d1, d2 = of(u)
+    return p @ turn + offset, d1 @ turn, d2 @ turn
 
 
 @dataclass(frozen=True, eq=False)
