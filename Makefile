@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 SOURCES := $(shell find crates python -name '*.rs' -o -name '*.pyi' -o -name 'Cargo.toml') Cargo.toml Cargo.lock pyproject.toml
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo test test-all test-rust test-python lint types format bench bench-quick bench-instructions fuzz figures experiment docs clean
+.PHONY: help build demo test test-all test-rust test-python lint types format bench bench-quick bench-instructions fuzz figures experiment wheel clean
 
 help: ## Show this list.
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-20s %s\n", $$1, $$2}'
@@ -79,5 +79,13 @@ figures: build ## Redraw the paper's figures into docs/gallery/.
 experiment: build ## Share of exact reconstructions against r; writes docs/experiments.md.
 	$(BIN)/python -m experiments.theory
 
+wheel: ## Build a wheel, and test it in an environment that holds NumPy and nothing else.
+	rm -rf dist/wheel && mkdir -p dist
+	$(PYTHON) -m pip wheel --quiet --disable-pip-version-check --no-deps --wheel-dir dist/wheel .
+	$(PYTHON) -m venv dist/wheel/minimal
+	dist/wheel/minimal/bin/pip install --quiet --disable-pip-version-check numpy
+	dist/wheel/minimal/bin/pip install --quiet --disable-pip-version-check --no-deps dist/wheel/*.whl
+	dist/wheel/minimal/bin/python tests/test_minimal.py
+
 clean: ## Remove what was built.
-	rm -rf target $(VENV) demo benchmarks/build python/crustline/*.so
+	rm -rf target dist $(VENV) demo benchmarks/build python/crustline/*.so

@@ -1,4 +1,4 @@
-"""README.md and docs/tutorial.md: each Python block and each line `crustline …` runs as it stands.
+"""Pages and help are true: Python, lines `crustline …` and links in them run and lead as they stand.
 
 A block `text` right after a block is what that one prints; times may differ.
 """
@@ -13,9 +13,16 @@ from pathlib import Path
 
 import pytest
 
+from crustline.cli import commands as entry
 from crustline.cli import main
 
 ROOT = Path(__file__).resolve().parent.parent
+PAGES = sorted(
+    path.relative_to(ROOT)
+    for path in [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("examples/*.md")]
+)
+#: Commands that need no input to show.
+WITHOUT_EXAMPLE = {"methods"}
 BLOCK = re.compile(r"```(\w*)\n(.*?)```|((?:^(?: {4}.*)?\n)+)", re.DOTALL | re.MULTILINE)
 
 
@@ -36,16 +43,27 @@ def without_times(text: str) -> str:
     return re.sub(r"\d+\.\d+ s;", "… s;", text).strip()
 
 
-@pytest.mark.parametrize("name", ["README.md", "docs/tutorial.md"])
-def test_what_the_page_shows_is_what_happens(name, tmp_path, monkeypatch, capfd):
-    for module in ("matplotlib", "scipy", "svgelements"):
-        pytest.importorskip(module)
+def run(arguments: list[str], capfd: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        main(arguments)
+    assert caught.value.code == 0, (arguments, capfd.readouterr().err)
+
+
+@pytest.fixture
+def readers_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Work where the examples are, and files by the names that stand for the reader's own."""
     shutil.copytree(ROOT / "examples", tmp_path / "examples")
-    # Names that stand for the reader's own files.
-    for name_there in ("points.csv", "scan.csv"):
-        shutil.copy(ROOT / "examples" / "goose.csv", tmp_path / name_there)
+    for name in ("goose.csv", "points.csv", "scan.csv"):
+        shutil.copy(ROOT / "examples" / "goose.csv", tmp_path / name)
     shutil.copy(ROOT / "examples" / "new_zealand.csv", tmp_path / "islands.csv")
     monkeypatch.chdir(tmp_path)
+
+
+@pytest.mark.usefixtures("readers_folder")
+@pytest.mark.parametrize("name", ["README.md", "docs/tutorial.md"])
+def test_what_the_page_shows_is_what_happens(name, capfd):
+    for module in ("matplotlib", "scipy", "svgelements"):
+        pytest.importorskip(module)
     names: dict[str, object] = {}
     printed, count = "", 0
     for language, block in blocks((ROOT / name).read_text(encoding="utf-8")):
@@ -57,9 +75,33 @@ def test_what_the_page_shows_is_what_happens(name, tmp_path, monkeypatch, capfd)
             exec(compile(block, name, "exec"), names)
             count += 1
         for arguments in commands(block) if language in ("", "sh") else ():
-            with pytest.raises(SystemExit) as caught:
-                main(arguments)
-            assert caught.value.code == 0, (arguments, capfd.readouterr().err)
+            run(arguments, capfd)
             count += 1
         printed = "".join(capfd.readouterr())
     assert count >= 4
+
+
+@pytest.mark.usefixtures("readers_folder")
+@pytest.mark.parametrize("name", sorted(entry.commands))
+def test_what_help_shows_runs(name, capfd):
+    for module in ("matplotlib", "scipy"):
+        pytest.importorskip(module)
+    shown = commands(entry.commands[name].help or "")
+    assert shown or name in WITHOUT_EXAMPLE
+    for arguments in shown:
+        run(arguments, capfd)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=str)
+def test_links_lead_somewhere(page):
+    text = (ROOT / page).read_text(encoding="utf-8")
+    links = re.findall(r"\]\(([^)#\s]+)[^)]*\)", re.sub(r"```.*?```", "", text, flags=re.DOTALL))
+    inside = [link for link in links if not re.match(r"\w+:", link)]
+    missing = [link for link in inside if not (ROOT / page).parent.joinpath(link).exists()]
+    assert not missing
+
+
+def test_make_has_a_rule_for_each_target_it_names():
+    text = (ROOT / "Makefile").read_text(encoding="utf-8")
+    phony = re.search(r"^\.PHONY: (.*)$", text, re.MULTILINE)[1].split()
+    assert sorted(phony) == sorted(set(re.findall(r"^([\w-]+):.*##", text, re.MULTILINE)))
