@@ -1,10 +1,11 @@
-"""Pages and help are true: Python, lines `crustline …` and links in them run and lead as they stand.
+"""Pages and help are true: Python, lines `crustline …` and links in them hold as they stand.
 
 A block `text` right after a block is what that one prints; times may differ.
 """
 
 from __future__ import annotations
 
+import pkgutil
 import re
 import shlex
 import shutil
@@ -105,3 +106,10 @@ def test_make_has_a_rule_for_each_target_it_names():
     text = (ROOT / "Makefile").read_text(encoding="utf-8")
     phony = re.search(r"^\.PHONY: (.*)$", text, re.MULTILINE)[1].split()
     assert sorted(phony) == sorted(set(re.findall(r"^([\w-]+):.*##", text, re.MULTILINE)))
+
+
+@pytest.mark.parametrize("page", PAGES, ids=str)
+def test_names_on_pages_exist(page):
+    text = (ROOT / page).read_text(encoding="utf-8")
+    for name in re.findall(r"`(?:cl|crustline)\.(\w+(?:\.\w+)*)", text):
+        assert pkgutil.resolve_name(f"crustline.{name}") is not None
