@@ -216,7 +216,7 @@ def test_pruning_removes_nothing_by_default_and_only_small_residuals_else(seed: 
     assert (same.vertices == axis.vertices).all()
     component = np.minimum((sample.t * 2).astype(int), 1)
     for kind in ("arc", "chord"):
-        residual, _ = axis.residuals(kind)
+        residual, _ = axis.residuals(kind=kind)
         between = component[axis.samples[:, 0]] != component[axis.samples[:, 1]]
         assert (np.isinf(residual) == between).all()
         limit = float(np.median(residual[~between]))
@@ -230,13 +230,13 @@ def test_the_residual_is_the_shorter_way_around() -> None:
     points = np.array([(0, 0), (1, 0), (2, 0), (3, 0), (3, 1), (2, 1), (1, 1), (0, 1)], float)
     axis = medial_axis(points, ring(8))
     arc = dict(
-        zip(map(tuple, axis.samples.tolist()), axis.residuals("arc")[0].tolist(), strict=True)
+        zip(map(tuple, axis.samples.tolist()), axis.residuals(kind="arc")[0].tolist(), strict=True)
     )
     assert arc == {(1, 6): 3.0, (2, 5): 3.0}
-    chord = axis.residuals("chord")[0]
+    chord = axis.residuals(kind="chord")[0]
     assert chord.tolist() == [2.0, 2.0]
     assert len(axis.prune(2.5).edges) == 0
-    open_arc = medial_axis(points, ring(8)[1:]).residuals("arc")[0]
+    open_arc = medial_axis(points, ring(8)[1:]).residuals(kind="arc")[0]
     assert sorted(open_arc.tolist()) == [3.0, 5.0]
 
 

@@ -81,7 +81,7 @@ def test_sparsest_circle_has_the_fewest_points() -> None:
 
 
 def test_sparsest_is_tight_and_random_is_denser(curve: SmoothCurve) -> None:
-    sparsest, random = r_sample(curve, 0.3, 1), r_sample(curve, 0.3, 1, "random")
+    sparsest, random = (r_sample(curve, 0.3, seed=1, mode=mode) for mode in ("sparsest", "random"))
     assert sampling_ratio(curve, sparsest) > 0.3 * 0.999
     assert len(sparsest) < len(random) < 2.1 * len(sparsest)
 
@@ -89,7 +89,7 @@ def test_sparsest_is_tight_and_random_is_denser(curve: SmoothCurve) -> None:
 def test_samples_are_the_same_for_the_same_seed(curve: SmoothCurve) -> None:
     modes: tuple[Mode, ...] = ("sparsest", "random")
     for mode in modes:
-        one, two, other = (r_sample(curve, 0.4, seed, mode) for seed in (9, 9, 10))
+        one, two, other = (r_sample(curve, 0.4, seed=seed, mode=mode) for seed in (9, 9, 10))
         assert np.array_equal(one.t, two.t)
         assert len(one) != len(other) or not np.allclose(one.t, other.t)
 

@@ -40,6 +40,12 @@ from crustline.smooth import Spline, Splines, smooth
 from crustline.theory import guaranteed_r
 from crustline.thinning import thin
 
+
+def __dir__() -> list[str]:
+    """List the public names, and not the modules that they come from."""
+    return __all__
+
+
 __all__ = [
     "METHODS",
     "Certificate",

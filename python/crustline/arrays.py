@@ -164,6 +164,36 @@ def equal(one: object, other: object) -> bool:
     return type(one) is type(other) and bool(one == other)
 
 
+def as_rows(rows: npt.ArrayLike, n: int) -> IntArray:
+    """Return some rows of n, given by their numbers, or by whether each is one of them.
+
+    Examples
+    --------
+    >>> as_rows([True, False, True], 3).tolist(), as_rows([2, 0], 3).tolist()
+    ([0, 2], [2, 0])
+    """
+    try:
+        array = np.asarray(rows)
+    except (ValueError, TypeError, OverflowError):
+        raise InputError("rows: they are not all integers: pass a flat list of rows") from None
+    if array.dtype.kind == "b" and array.shape == (n,):
+        return np.flatnonzero(array)
+    if array.size == 0 and array.ndim == 1:
+        return np.empty(0, np.int64)
+    if array.ndim != 1 or array.dtype.kind not in "iu":
+        raise InputError(
+            f"rows: {array.dtype} of the shape {array.shape} are no rows of {n} points: "
+            "pass a flat list of integers, or of a bool for each"
+        )
+    wrong = (array < 0) | (array >= n)
+    if wrong.any():
+        raise InputError(
+            f"rows: {array[np.argmax(wrong)]} is none of the {n} points, 0 to {n - 1}: "
+            "pass rows of these points"
+        )
+    return array.astype(np.int64)
+
+
 def as_edges(edges: npt.ArrayLike, n: int) -> IntArray:
     """Return edges between n points as int64 rows i < j, sorted and unique.
 

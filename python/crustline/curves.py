@@ -215,7 +215,7 @@ class Curves(Record, Sequence[Curve]):
                 holes[shell].append(self._curve(number).indices)
         return [Polygon(self._curve(k).indices, tuple(each)) for k, each in holes.items()]
 
-    def features(self, polygons: bool = False) -> Iterator[Feature]:
+    def features(self, *, polygons: bool = False) -> Iterator[Feature]:
         """Yield polygons, if they are asked for, then the other curves, then the isolated points.
 
         Parameters

@@ -149,7 +149,7 @@ class Delaunay:
         return self.run(_core.select, method, list(map(float, parameters)))
 
     def cached(
-        self, name: str, make: Callable[[], Made], fits: Callable[[Made], bool] | None = None
+        self, name: str, make: Callable[[], Made], *, fits: Callable[[Made], bool] | None = None
     ) -> Made:
         """Return what was made under a name, if it is there and fits; else make it and keep it.
 

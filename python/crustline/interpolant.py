@@ -2,34 +2,61 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy.typing as npt
 
 from crustline import _core
-from crustline.arrays import FloatArray, IntArray, read_only
-from crustline.delaunay import Delaunay, How, as_delaunay
+from crustline.arrays import FloatArray, IntArray, equal, read_only
+from crustline.delaunay import Delaunay, as_delaunay
 from crustline.methods import as_selected
+from crustline.scalars import as_positive
 
 __all__ = ["Interpolant", "interpolant", "local_feature_size"]
 
 
-@dataclass(frozen=True, eq=False)
 class Interpolant:
     """The smooth curve through samples that their edges suggest, and its medial axis.
 
-    `local_feature_size` and `certify` rest on it. The triangulation keeps the latest one.
+    `local_feature_size` and `certify` rest on it. A `Delaunay` keeps the latest one for them.
+
+    Parameters
+    ----------
+    points : array_like of float, shape (n, 2), Points or Delaunay
+        Coordinates, in any one unit. Finite.
+    edges : array_like of int, shape (m, 2), optional
+        The curves' edges, as rows of the points; by default the crust.
 
     Attributes
     ----------
+    points : Points
+        The samples, with all that they carry.
     edges : ndarray of int64, shape (m, 2)
         The edges that it follows: i < j in each row, rows sorted.
+
+    Raises
+    ------
+    InputError
+        If the points or edges do not fit; the message names the first row at fault.
+
+    Examples
+    --------
+    >>> smooth = Interpolant([(0, 0), (1, 0), (1, 1), (0, 1)])
+    >>> smooth
+    <Interpolant: 4 edges between 4 points>
+    >>> smooth.is_beta_skeleton(1.2)
+    True
     """
 
-    edges: IntArray
-    _core: _core.Interpolant = field(repr=False)
-    _how: How = field(repr=False)
+    def __init__(
+        self, points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = None
+    ) -> None:
+        delaunay = as_delaunay(points)
+        self.points = delaunay.points
+        self.edges = as_selected(delaunay, edges)
+        self._how = delaunay._how
+        self._core = delaunay.run(_core.Interpolant, self.edges)
 
     @cached_property
     def local_feature_size(self) -> FloatArray:
@@ -46,17 +73,31 @@ class Interpolant:
         return self._core.measures(*self._how)
 
     def is_beta_skeleton(self, beta: float) -> bool:
-        """Whether the edges are the circle-based β-skeleton of the samples, exactly."""
-        return self._core.is_beta_skeleton(beta, *self._how)
+        """Return whether the edges are the circle-based β-skeleton of the samples, exactly."""
+        return self._core.is_beta_skeleton(as_positive("beta", beta), *self._how)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether points and edges are equal: they decide all else."""
+        if not isinstance(other, Interpolant):
+            return NotImplemented
+        return self.points == other.points and equal(self.edges, other.edges)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Interpolant, (self.points, self.edges)
+
+    def __repr__(self) -> str:
+        return f"<Interpolant: {len(self.edges)} edges between {len(self.points)} points>"
 
 
 def interpolant(delaunay: Delaunay, edges: IntArray) -> Interpolant:
     """Return the interpolant of edges; the triangulation keeps it for the next call."""
 
-    def make() -> Interpolant:
-        return Interpolant(edges, delaunay.run(_core.Interpolant, edges), delaunay._how)
+    def made_of_them(known: Interpolant) -> bool:
+        return known._core.is_of(edges)
 
-    return delaunay.cached("interpolant", make, fits=lambda known: known._core.is_of(edges))
+    return delaunay.cached("interpolant", lambda: Interpolant(delaunay, edges), fits=made_of_them)
 
 
 def local_feature_size(

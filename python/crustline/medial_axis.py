@@ -128,7 +128,7 @@ class MedialAxis(Record):
             ends.append(row[seen])
         return _compact(np.concatenate(vertices), np.stack(ends, axis=1))
 
-    def residuals(self, kind: Residual = "chord") -> tuple[FloatArray, FloatArray]:
+    def residuals(self, *, kind: Residual = "chord") -> tuple[FloatArray, FloatArray]:
         """Return what each edge and each ray stands for, in the unit of the points.
 
         Parameters
@@ -209,7 +209,7 @@ class MedialAxis(Record):
         (True, 0, 0)
         """
         at_least = as_length("at_least", at_least)
-        of_edges, of_rays = self.residuals(kind)
+        of_edges, of_rays = self.residuals(kind=kind)
         kept, rays = of_edges >= at_least, of_rays >= at_least
         used = np.zeros(len(self.vertices), bool)
         used[self.edges[kept].ravel()] = True

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from crustline.arrays import FloatArray, as_points, equal, read_only
+from crustline.arrays import FloatArray, as_points, as_rows, equal, read_only
 from crustline.errors import InputError
 from crustline.notebook import table
 
@@ -137,7 +137,12 @@ class Points:
         Parameters
         ----------
         rows : array_like of int, shape (k,), or of bool, shape (n,)
-            As in NumPy's own indexing.
+            Which rows, in which order, or whether each is one of them.
+
+        Raises
+        ------
+        InputError
+            If they are no rows of the points.
 
         Examples
         --------
@@ -145,8 +150,7 @@ class Points:
         >>> points.select([1]).columns["name"].tolist()
         ['b']
         """
-        chosen = np.asarray(rows)
-        chosen = chosen if chosen.size else chosen.astype(np.int64)
+        chosen = as_rows(rows, len(self))
         columns = {name: column[chosen] for name, column in self.columns.items()}
         z = None if self.z is None else self.z[chosen]
         return _rebuild(self.xy[chosen], z, columns, self.crs, self.names)

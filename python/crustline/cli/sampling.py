@@ -91,7 +91,7 @@ def _take(
         return sample_for_error(curve, error, r=share, seed=seed, mode=mode)
     if share is None:
         raise InputError("how dense the samples are is not said: add -r R, such as -r 0.25")
-    return r_sample(curve, share, seed, mode)
+    return r_sample(curve, share, seed=seed, mode=mode)
 
 
 def _curve(spec: str) -> SmoothCurve:

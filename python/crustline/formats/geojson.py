@@ -270,7 +270,7 @@ def _features_of(curves: Curves, polygons: bool) -> Iterator[dict[str, Any]]:
         positions: list[list[float]] = coordinates_with_height(curves, rows).tolist()
         return positions + positions[:1] if closed else positions
 
-    for feature in curves.features(polygons):
+    for feature in curves.features(polygons=polygons):
         lines = [line(part, feature.closed) for part in feature.parts]
         rows = np.concatenate(feature.parts)
         properties = {"curve": feature.number, "closed": feature.closed, "rows": rows.tolist()}

@@ -47,7 +47,7 @@ def write_splines(splines: Splines, target: Target, *, tolerance: float | None =
 
 def picture_of_curves(curves: Curves, *, polygons: bool = False) -> str:
     """Return a picture of curves: a path for each, dots for the isolated points."""
-    features = list(curves.features(polygons))
+    features = list(curves.features(polygons=polygons))
     paths = [Path.of_feature(feature, curves.points.xy) for feature in features]
     return _document(_frame_of(curves.points.xy), curves, zip(features, paths, strict=True))
 

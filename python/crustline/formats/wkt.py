@@ -240,7 +240,7 @@ def _lines(curves: Curves, polygons: bool) -> Iterator[str]:
         positions = list(map(" ".join, zip(*(map(repr, each) for each in numbers), strict=True)))
         return f"({', '.join(positions + positions[:1] * closed)})"
 
-    for feature in curves.features(polygons):
+    for feature in curves.features(polygons=polygons):
         if feature.kind == "points":
             parts = [text(feature.parts[0][k : k + 1], False) for k in range(len(feature.parts[0]))]
         else:

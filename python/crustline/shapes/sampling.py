@@ -58,7 +58,7 @@ class Sample:
 
 
 def r_sample(
-    curve: SmoothCurve, r: float, seed: int | None = None, mode: Mode = "sparsest"
+    curve: SmoothCurve, r: float, *, seed: int | None = None, mode: Mode = "sparsest"
 ) -> Sample:
     """Return samples of a smooth curve such that each of its points p has one within r · LFS(p).
 
