@@ -28,9 +28,34 @@ PARAMETER_FREE: dict[str, tuple[Method, Definition]] = {
         "one_step_crust",
         "rcgh",
         "nn_crust",
+        "hnn_crust",
+        "crawl",
+        "peel",
+        "sig_delaunay",
         "minimum_spanning_tree",
     )
 }
+WITH_PARAMETERS: dict[str, tuple[Method, Definition]] = {
+    "compatible_crust": (
+        lambda points: cl.compatible_crust(points, 1.8),
+        lambda points: oracle.compatible_crust(points, Fraction(1 / math.tan(1.8))),
+    ),
+    "conservative_crust": (cl.conservative_crust, lambda s: oracle.conservative_crust(s, 1.0)),
+    "conservative_crust, large": (
+        lambda points: cl.conservative_crust(points, 1.5),
+        lambda points: oracle.conservative_crust(points, 1.5),
+    ),
+    "conservative_crust, small": (
+        lambda points: cl.conservative_crust(points, 0.7),
+        lambda points: oracle.conservative_crust(points, 0.7),
+    ),
+    "gathan": (cl.gathan, lambda points: oracle.gathan(points, math.sin(1.4), 1.0)),
+    "gathan, narrow": (
+        lambda points: cl.gathan(points, math.asin(0.6), 0.75),
+        lambda points: oracle.gathan(points, math.sin(math.asin(0.6)), 0.75),
+    ),
+}
+GRAPHS = PARAMETER_FREE | WITH_PARAMETERS
 BETAS = (0.5, 0.9, 1.0, 1.2, 1.7, 2.0, 3.0)
 
 
@@ -191,16 +216,16 @@ def test_beta_skeleton_at_the_very_angle_of_a_point() -> None:
 # The other graphs.
 
 
-@pytest.mark.parametrize("name", PARAMETER_FREE)
+@pytest.mark.parametrize("name", GRAPHS)
 def test_graph_of_small_integer_grids(name: str) -> None:
-    method, definition = PARAMETER_FREE[name]
-    for points in sets(make.grid, 400, seed=70):
+    method, definition = GRAPHS[name]
+    for points in sets(make.grid, 500, seed=70):
         assert_is(method(points), definition(points), points)
 
 
-@pytest.mark.parametrize("name", PARAMETER_FREE)
+@pytest.mark.parametrize("name", GRAPHS)
 def test_graph_of_hard_sets(name: str) -> None:
-    method, definition = PARAMETER_FREE[name]
+    method, definition = GRAPHS[name]
     rng = np.random.default_rng(9)
     for points in sets(make.degenerate, 60, seed=71):
         for moved in (
@@ -212,9 +237,9 @@ def test_graph_of_hard_sets(name: str) -> None:
             assert_is(method(moved), definition(moved), moved)
 
 
-@pytest.mark.parametrize("name", PARAMETER_FREE)
+@pytest.mark.parametrize("name", GRAPHS)
 def test_graph_of_noisy_curves(name: str) -> None:
-    method, definition = PARAMETER_FREE[name]
+    method, definition = GRAPHS[name]
     for points in sets(make.noisy_curve, 6, seed=72):
         assert_is(method(points), definition(points), points)
 

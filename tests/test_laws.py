@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from itertools import pairwise
+from itertools import combinations, pairwise
 from typing import Any
 
 import numpy as np
@@ -37,8 +37,8 @@ METHODS: dict[str, Method] = {name: _with_what_it_needs(name) for name in cl.MET
     "lune": lambda points: cl.beta_skeleton(points, 1.7, kind="lune"),
     "lens": lambda points: cl.beta_skeleton(points, 0.8),
 }
-# It breaks its ties by coordinates: a turn may choose another tree.
-DIRECTED = {"minimum-spanning-tree"}
+# They break their ties by coordinates: a turn may choose other edges.
+DIRECTED = {"minimum-spanning-tree", "crawl", "peel"}
 # Their parameter would have to be scaled, or moved, too.
 SIZED, PLACED = {"alpha-shape"}, {"a-shape"}
 BETAS = (0.3, 0.5, 0.9, 1.0, 1.1, 1.5, 1.7, 2.0, 4.0)
@@ -124,6 +124,48 @@ def test_tree_lies_in_the_relative_neighborhood_graph_and_that_in_gabriel(points
         pairs(cl.relative_neighborhood(points)),
     )
     assert tree <= relative <= pairs(cl.gabriel(points))
+
+
+@given(ANY, st.sampled_from([1.0, 1.25, 2.0]))
+def test_conservative_crust_lies_in_the_crust(points: Rows, ratio: float) -> None:
+    assert pairs(cl.conservative_crust(points, ratio)) <= pairs(cl.crust(points))
+
+
+@given(ANY)
+def test_larger_disks_give_a_smaller_conservative_crust(points: Rows) -> None:
+    crusts = [pairs(cl.conservative_crust(points, ratio)) for ratio in (0.5, 1.0, 1.25, 2.0, 4.0)]
+    for larger, smaller in pairwise(crusts):
+        assert smaller <= larger
+
+
+@given(ANY)
+def test_compatible_at_90_degrees_lies_in_the_nn_crust(points: Rows) -> None:
+    assert pairs(cl.compatible_crust(points, math.pi / 2)) <= pairs(cl.nn_crust(points))
+
+
+@given(ANY)
+def test_spheres_of_influence_meet_where_two_points_are_nearest_to_each_other(points: Rows) -> None:
+    distinct = np.unique(points, axis=0)
+    squares = ((distinct[:, None] - distinct) ** 2).sum(axis=2) + np.diag([np.inf] * len(distinct))
+    found = pairs(cl.sig_delaunay(distinct))
+    for i, j in combinations(range(len(distinct)), 2):
+        others = np.concatenate((np.delete(squares[i], [i, j]), np.delete(squares[j], [i, j])))
+        if np.isfinite(squares[i, j]) and (others > 1.001 * squares[i, j]).all():
+            assert (i, j) in found
+
+
+@pytest.mark.parametrize("method", [cl.crawl, cl.peel])
+@given(points=ANY)
+def test_greedy_methods_leave_no_point_more_than_two_edges(method: Method, points: Rows) -> None:
+    assert np.bincount(method(points).ravel(), minlength=1).max() <= 2
+
+
+@given(ANY, st.floats(0.1, 1.5))
+def test_gathan_of_longer_cells_is_smaller(points: Rows, angle: float) -> None:
+    # The ratio admits short edges before long ones, so the shortest of a side stays the same.
+    graphs = [pairs(cl.gathan(points, angle, ratio)) for ratio in (0, 0.5, 1.0, 2.0)]
+    for larger, smaller in pairwise(graphs):
+        assert smaller <= larger
 
 
 @given(ANY)

@@ -247,3 +247,63 @@ def test_the_table_of_methods_is_complete() -> None:
     }
     assert edges_of_points - {"as_selected"} == public
     assert public <= set(cl.__all__)
+
+
+# What the docstrings of the published methods claim, on samples that are as sparse as they may be.
+
+CLAIMED: dict[str, tuple[Callable[[Any], Any], float]] = {
+    "hnn_crust": (cl.hnn_crust, 0.47),
+    "compatible_crust": (cl.compatible_crust, 0.66),
+    "conservative_crust": (cl.conservative_crust, 1 / 5),
+    "conservative_crust, large": (lambda points: cl.conservative_crust(points, 2.0), 1 / 7),
+    "crawl": (cl.crawl, 1 / 3),
+    "peel": (cl.peel, 1 / 3),
+}
+
+
+@pytest.mark.parametrize("name", CLAIMED)
+@pytest.mark.parametrize("curve", make.SMOOTH_CURVES)
+def test_a_sparsest_sample_is_reconstructed(name: str, curve: str) -> None:
+    method, r = CLAIMED[name]
+    for seed in range(5):
+        sample = cl.r_sample(make.SMOOTH_CURVES[curve], r * 0.999, seed=seed)
+        assert method(sample.points).tolist() == sample.edges.tolist()
+
+
+@pytest.mark.parametrize("curve", make.SMOOTH_CURVES)
+def test_spheres_of_influence_hold_steps_at_most_twice_the_next(curve: str) -> None:
+    for seed in range(5):
+        sample = cl.r_sample(make.SMOOTH_CURVES[curve], 0.33, seed=seed)
+        steps = np.hypot(*np.diff(sample.points[sample.edges], axis=1)[:, 0].T)
+        least = np.full(len(sample.points), math.inf)
+        np.minimum.at(least, sample.edges.ravel(), np.repeat(steps, 2))
+        within = steps <= least[sample.edges].sum(axis=1)
+        found = {tuple(edge) for edge in cl.sig_delaunay(sample.points).tolist()}
+        assert {tuple(edge) for edge in sample.edges[within].tolist()} <= found
+        assert within.sum() > 0.9 * len(within)
+
+
+def test_half_neighbors_turn_a_corner_of_62_degrees() -> None:
+    corner = [(-2, 3), (-1.3, 2), (-0.6, 1), (0, 0), (0.6, 1), (1.3, 2), (2, 3)]
+    assert cl.hnn_crust(corner).tolist() == [[k, k + 1] for k in range(6)]
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (
+            lambda: cl.compatible_crust(SQUARE, 0),
+            r"angle must be in radians, between 0 and pi, not 0",
+        ),
+        (lambda: cl.compatible_crust(SQUARE, 103), r"angle must be in radians, .* not 103"),
+        (lambda: cl.conservative_crust(SQUARE, 0), r"ratio must be positive and finite, not 0"),
+        (lambda: cl.gathan(SQUARE, 80), r"angle must be in radians, from 0 to pi / 2, not 80"),
+        (
+            lambda: cl.gathan(SQUARE, ratio=-1),
+            r"ratio must be a finite number of at least 0, not -1",
+        ),
+    ],
+)
+def test_parameters_of_published_methods_are_checked(call: Callable[[], Any], message: str) -> None:
+    with pytest.raises(cl.InputError, match=message):
+        call()

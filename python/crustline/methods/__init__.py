@@ -11,6 +11,8 @@ from crustline.arrays import IntArray
 from crustline.methods.alpha_shapes import a_shape, alpha_shape
 from crustline.methods.connect import connect
 from crustline.methods.crusts import as_selected, crust, nn_crust, one_step_crust, rcgh
+from crustline.methods.greedy import crawl, peel
+from crustline.methods.nearest import compatible_crust, hnn_crust, sig_delaunay
 from crustline.methods.neighborhoods import (
     beta_skeleton,
     crossing_angle_graph,
@@ -20,6 +22,7 @@ from crustline.methods.neighborhoods import (
 )
 from crustline.methods.parameters import check_parameters, parameters_of
 from crustline.methods.spanning_tree import minimum_spanning_tree
+from crustline.methods.voronoi_cells import conservative_crust, gathan
 
 Method = Callable[..., IntArray]
 
@@ -31,6 +34,13 @@ METHODS: dict[str, Method] = {
         beta_skeleton,
         one_step_crust,
         nn_crust,
+        hnn_crust,
+        compatible_crust,
+        conservative_crust,
+        gathan,
+        crawl,
+        peel,
+        sig_delaunay,
         gabriel,
         relative_neighborhood,
         gamma_graph,
@@ -51,15 +61,22 @@ __all__ = [
     "as_selected",
     "beta_skeleton",
     "check_parameters",
+    "compatible_crust",
     "connect",
+    "conservative_crust",
+    "crawl",
     "crossing_angle_graph",
     "crust",
     "gabriel",
     "gamma_graph",
+    "gathan",
+    "hnn_crust",
     "minimum_spanning_tree",
     "nn_crust",
     "one_step_crust",
     "parameters_of",
+    "peel",
     "rcgh",
     "relative_neighborhood",
+    "sig_delaunay",
 ]
