@@ -5,7 +5,7 @@ use crate::cocircular::diagonals;
 use crate::delaunay::{Delaunay, Edge};
 use crate::error::{Error, Result};
 use crate::parts::split;
-use crate::point::{Point, cross, dot, length, sub};
+use crate::point::{Point, cross, dot, sub};
 use crate::progress::Progress;
 use rayon::prelude::*;
 
@@ -44,8 +44,33 @@ impl Candidates {
         own.fill(delaunay, &tied);
         progress.advance(0)?;
         own.link();
-        own.limit_pairs(delaunay);
         Ok(own)
+    }
+
+    /// Keep the half-edges, twins alike, that are to be kept, with their `values`; then see which form pairs.
+    pub fn retain(&mut self, values: &mut Vec<f32>, keep: &[bool]) {
+        let mut place = 0;
+        for v in 0..self.vertices() {
+            let range = self.from(v);
+            self.offsets[v] = place as u32;
+            for e in range.filter(|&e| keep[e]) {
+                self.ends[place] = self.ends[e];
+                self.sights[place] = self.sights[e];
+                values[place] = values[e];
+                place += 1;
+            }
+        }
+        if let Some(last) = self.offsets.last_mut() {
+            *last = place as u32;
+        }
+        self.ends.truncate(place);
+        for values in [&mut self.sights, values] {
+            values.truncate(place);
+            values.shrink_to_fit();
+        }
+        self.ends.shrink_to_fit();
+        self.link();
+        self.limit_pairs(values);
     }
 
     /// The number of vertices.
@@ -140,10 +165,10 @@ impl Candidates {
         }
     }
 
-    /// Let only the shortest half-edges of hubs form pairs, and put them first.
+    /// Let only the half-edges of least value at hubs form pairs, and put them first.
     ///
-    /// Those as long as the first one too many are out as well, so that the order of ties does not matter.
-    fn limit_pairs(&mut self, delaunay: &Delaunay) {
+    /// Those of the same value as the first one too many are out as well, so that the order of ties does not matter.
+    fn limit_pairs(&mut self, values: &mut [f32]) {
         self.paired = vec![0; self.vertices()];
         for v in 0..self.vertices() {
             let range = self.from(v);
@@ -151,14 +176,13 @@ impl Candidates {
                 self.paired[v] = range.len() as u8;
                 continue;
             }
-            let from = delaunay.point(v as u32);
-            let length_of = |&end: &u32| length(sub(delaunay.point(end), from));
-            let mut sorted: Vec<f64> = self.ends[range.clone()].iter().map(length_of).collect();
-            let (_, &mut limit, _) = sorted.select_nth_unstable_by(MOST_PAIRED, f64::total_cmp);
+            let mut sorted = values[range.clone()].to_vec();
+            let (_, &mut limit, _) = sorted.select_nth_unstable_by(MOST_PAIRED, f32::total_cmp);
             let mut place = range.start;
             for e in range.clone() {
-                if length_of(&self.ends[e]) < limit {
+                if values[e] < limit {
                     self.swap(e, place);
+                    values.swap(e, place);
                     place += 1;
                 }
             }

@@ -1,9 +1,8 @@
-//! Every constant of the costs, with its reason. A free end costs 1: that is the unit.
+//! Every constant of the method, with its reason. A free end costs 1: that is the unit.
 //!
-//! They were fitted on one half of the generated cases of `benchmarks/accuracy`, never on the other. Changes of a quarter
-//! in any of them move few answers.
+//! They were fitted on one half of the generated cases of `benchmarks/accuracy`, never on the other.
 
-/// The constants.
+/// The constants that were fitted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Constants {
     /// What a curve pays at a point where it turns back: nearly an end, so that a corner is better than a gap.
@@ -32,14 +31,24 @@ pub struct Constants {
     pub long: f64,
     /// Neighbors nearer than this part of the spacing around do not set the scale.
     pub close: f64,
+    /// Neighbors farther than this multiple of the second nearest do not tell the spacing: they are across, not along.
+    pub reach: f64,
+    /// What a gap e times as long as gaps begin pays: steep, for a gap is one or is none.
+    pub gap: f64,
+    /// The logarithm of the ratio to the usual steps at which gaps begin.
+    pub gap_free: f64,
+    /// The usual steps end where the next longer one is this many times as long: above 2, which one lost sample makes.
+    pub gap_jump: f64,
     /// Where the curve found first turns by this part of a half turn at most points, turning weighs half: about 25°.
     pub rough_turn: f64,
-    /// How fast that weight falls.
-    pub rough_turn_power: f64,
     /// Where steps change by this logarithm at most points, lengths weigh half: twofold.
     pub rough_step: f64,
-    /// How fast that weight falls.
-    pub rough_step_power: f64,
+    /// Components whose steps are at least this part of the distances between isolated points may be outliers in a row …
+    pub prune_step: f64,
+    /// … and are if they cost at least this part of an isolated point each …
+    pub prune_cost: f64,
+    /// … and have less than this part of the points of the largest component, or fewer than `SMALL`.
+    pub prune_size: f64,
 }
 
 /// The constants in use.
@@ -57,18 +66,31 @@ pub const CONSTANTS: Constants = Constants {
     near: 0.3,
     long: 0.2,
     close: 0.25,
+    reach: 4.0,
+    gap: 5.0,
+    gap_free: 0.9,
+    gap_jump: 2.5,
     rough_turn: 0.14,
-    rough_turn_power: 2.0,
     rough_step: 0.7,
-    rough_step_power: 6.0,
+    prune_step: 0.3,
+    prune_cost: 0.3,
+    prune_size: 0.33,
 };
 
+/// Edges that cost more than this are no candidates: to leave one out costs at most two ends, which is 2.
+pub const HOPELESS: f32 = 3.0;
 /// At a vertex of more edges than this pairs are made among the shortest only, so that hubs stay cheap.
 pub const MOST_PAIRED: usize = 14;
 /// Rings of neighbors whose medians smooth the local spacing: enough to vote down small clusters of outliers.
 pub const SPACING_RINGS: usize = 4;
 /// Rings whose medians smooth what the first round found.
 pub const ROUGHNESS_RINGS: usize = 3;
+/// Edges along the curve, on each side of a point, that tell its usual steps.
+pub const GAP_WINDOW: usize = 20;
+/// Of fewer steps than this nothing is told …
+pub const GAP_FEWEST: usize = 4;
+/// … and from as many on it is told in full.
+pub const GAP_SURE: f32 = 10.0;
 /// The most sweeps of messages a round: a message goes as many edges far.
 pub const SWEEPS: usize = 20;
 /// Messages that change by no more than this have converged; an end costs 1.
@@ -77,12 +99,8 @@ pub const CONVERGED: f32 = 1e-3;
 pub const FEWEST: usize = 4;
 /// How many isolated points it takes to prune at all.
 pub const PRUNE_FROM: usize = 3;
-/// Components of fewer points than this may be outliers in a row.
+/// Components of fewer points than this may be outliers in a row however large the others are.
 pub const SMALL: usize = 16;
-/// They are if their steps are at least this part of the outliers' distances …
-pub const PRUNE_STEP: f64 = 0.5;
-/// … and cost at least this part of an isolated point each.
-pub const PRUNE_COST: f64 = 0.3;
 /// The sampling ratio at which the crust is proven (paper, §8).
 pub const PROVEN: f64 = 0.252;
 /// By how much the estimate of that ratio may be too small.

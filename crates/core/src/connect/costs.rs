@@ -2,7 +2,7 @@
 
 use super::candidates::{Candidates, by_vertex};
 use super::constants::Constants;
-use super::geometry::Geometry;
+use super::geometry::Spacing;
 use super::roughness::Roughness;
 
 /// The costs; a free end costs 1 unless told otherwise.
@@ -25,45 +25,73 @@ impl Costs {
     #[must_use]
     pub fn new(
         candidates: &Candidates,
-        geometry: &Geometry,
+        spacing: &Spacing,
         rough: &Roughness,
         constants: &Constants,
     ) -> Self {
         let vertices = candidates.vertices();
-        let turns =
-            by_vertex(vertices, |v| (constants.turn * rough.turn_weight(v, constants)) as f32);
         let weights = by_vertex(vertices, |v| rough.step_weight(v, constants) as f32);
         let edges = candidates.map(0.0, |v, own| {
             for (own, e) in own.iter_mut().zip(candidates.from(v)) {
-                let end = candidates.ends[e] as usize;
-                let length = length_cost(candidates, geometry, constants, [v, end], e);
-                *own = sight_cost(candidates.sights[e], constants)
-                    + (weights[v] * weights[end]).sqrt() * length;
+                let ends = [v, candidates.ends[e] as usize];
+                let weight = (weights[v] * weights[ends[1]]).sqrt();
+                *own = sight_cost(candidates, e, constants)
+                    + weight * length_cost(candidates, spacing, ends, e, constants)
+                    + rough.gaps.cost(candidates, spacing, ends, e, constants);
             }
         });
-        let alone = by_vertex(vertices, |v| {
-            (alone(geometry.crowding[v], constants) * rough.alone_weight(v, constants)) as f32
-        });
-        let steps = weights.into_iter().map(|w| constants.step as f32 * w).collect();
-        Self { edges, turns, steps, ends: vec![1.0; vertices], alone }
+        Self {
+            edges,
+            turns: by_vertex(vertices, |v| {
+                (constants.turn * rough.turn_weight(v, constants)) as f32
+            }),
+            steps: weights.into_iter().map(|weight| constants.step as f32 * weight).collect(),
+            ends: vec![1.0; vertices],
+            alone: by_vertex(vertices, |v| {
+                (alone(spacing.crowding[v], constants) * rough.alone_weight(v, constants)) as f32
+            }),
+        }
+    }
+
+    /// What a path along two half-edges at `v` costs there, given its turn and their lengths.
+    #[inline]
+    #[must_use]
+    pub fn pair(&self, v: usize, turn: f32, [a, b]: [f32; 2]) -> f32 {
+        self.turns[v] * turn + self.steps[v] * (a - b).abs()
     }
 }
 
-fn sight_cost(sight: f32, constants: &Constants) -> f32 {
-    constants.sight as f32 * (sight - constants.sight_free as f32).max(0.0)
+/// What each half-edge's edge costs at first, before anything is known of the curve.
+#[must_use]
+pub fn first_edge_costs(
+    candidates: &Candidates,
+    spacing: &Spacing,
+    constants: &Constants,
+) -> Vec<f32> {
+    candidates.map(0.0, |v, own| {
+        for (own, e) in own.iter_mut().zip(candidates.from(v)) {
+            let ends = [v, candidates.ends[e] as usize];
+            *own = sight_cost(candidates, e, constants)
+                + length_cost(candidates, spacing, ends, e, constants);
+        }
+    })
+}
+
+fn sight_cost(candidates: &Candidates, e: usize, constants: &Constants) -> f32 {
+    constants.sight as f32 * (candidates.sights[e] - constants.sight_free as f32).max(0.0)
 }
 
 /// The cost of the length of the edge of half-edge `e` between two vertices.
 fn length_cost(
     candidates: &Candidates,
-    geometry: &Geometry,
-    constants: &Constants,
+    spacing: &Spacing,
     ends: [usize; 2],
     e: usize,
+    constants: &Constants,
 ) -> f32 {
     let close = -libm::log(constants.close) as f32;
-    let lengths = [e, candidates.twins[e] as usize].map(|e| geometry.lengths[e]);
-    let [a, b] = ends.map(|v| geometry.crowding[v]);
+    let lengths = [e, candidates.twins[e] as usize].map(|e| spacing.lengths[e]);
+    let [a, b] = ends.map(|v| spacing.crowding[v]);
     let near = (lengths[0] - (a - close).max(0.0)) + (lengths[1] - (b - close).max(0.0));
     let long = (lengths[0] - a) + (lengths[1] - b);
     f32::midpoint(constants.near as f32 * near, constants.long as f32 * long.max(0.0))

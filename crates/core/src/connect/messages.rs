@@ -6,21 +6,27 @@
 use super::candidates::{Candidates, GRAIN, each};
 use super::constants::{CONVERGED, MOST_PAIRED, SWEEPS};
 use super::costs::Costs;
-use super::geometry::Geometry;
+use super::geometry::{Spacing, Turns};
 use crate::error::Result;
 use crate::parts::split;
 use crate::progress::Progress;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// What the messages run on.
+#[derive(Clone, Copy)]
 pub struct Factors<'a> {
     /// The edges.
     pub candidates: &'a Candidates,
-    /// Their measures.
-    pub geometry: &'a Geometry,
+    /// Their lengths.
+    pub spacing: &'a Spacing,
+    /// The turns between them.
+    pub turns: &'a Turns,
     /// Their costs.
     pub costs: &'a Costs,
 }
+
+/// The new messages of the active vertices of a part.
+type Mail = Vec<(u32, f32)>;
 
 impl Factors<'_> {
     /// Send messages until none changes any more, starting from those in `sent`.
@@ -29,57 +35,56 @@ impl Factors<'_> {
     ///
     /// # Errors
     /// A cancelled `progress`.
-    pub fn converge(&self, sent: &mut Vec<f32>, progress: &Progress) -> Result<()> {
-        let flags = |value: bool| -> Vec<AtomicBool> {
-            (0..self.candidates.vertices()).map(|_| AtomicBool::new(value)).collect()
-        };
-        let (mut active, mut next) = (flags(true), flags(false));
-        let mut fresh = sent.clone();
+    pub fn converge(&self, sent: &mut [f32], progress: &Progress) -> Result<()> {
+        let active: Vec<AtomicBool> =
+            (0..self.candidates.vertices()).map(|_| AtomicBool::new(true)).collect();
+        let mut mail = vec![Mail::new(); self.candidates.vertices().div_ceil(GRAIN)];
         for _ in 0..SWEEPS {
-            let any = self.sweep(sent, &mut fresh, &active, &next);
+            each(&mut mail, |(k, mail)| self.write(k, sent, &active, mail));
             progress.advance(0)?;
-            std::mem::swap(sent, &mut fresh);
-            std::mem::swap(&mut active, &mut next);
-            if !any {
+            if mail.iter().all(Vec::is_empty) {
                 break;
             }
+            self.deliver(&mail, sent, &active);
         }
         Ok(())
     }
 
-    /// Let the active vertices send; they are not active afterwards, those that are to send next are in `next`.
-    fn sweep(
-        &self,
-        sent: &[f32],
-        fresh: &mut [f32],
-        active: &[AtomicBool],
-        next: &[AtomicBool],
-    ) -> bool {
-        let any = AtomicBool::new(false);
-        let parts = split(fresh, self.candidates.grains());
-        each(parts, |(k, mut part)| {
-            let mut work = Work::default();
-            for v in k * GRAIN..((k + 1) * GRAIN).min(self.candidates.vertices()) {
-                let range = self.candidates.from(v);
-                let (own, rest) = part.split_at_mut(range.len());
-                part = rest;
-                if !active[v].load(Relaxed) {
-                    own.copy_from_slice(&sent[range]);
-                    continue;
-                }
-                active[v].store(false, Relaxed);
+    /// Write the messages of the active vertices of part `k`, which are not active any more.
+    fn write(&self, k: usize, sent: &[f32], active: &[AtomicBool], mail: &mut Mail) {
+        let mut work = Work::default();
+        mail.clear();
+        for v in k * GRAIN..((k + 1) * GRAIN).min(self.candidates.vertices()) {
+            if active[v].swap(false, Relaxed) {
                 self.send(v, sent, &mut work);
-                for ((own, e), &message) in own.iter_mut().zip(range).zip(&work.messages) {
-                    *own = f32::midpoint(sent[e], message);
-                    if (*own - sent[e]).abs() > CONVERGED {
-                        next[v].store(true, Relaxed);
-                        next[self.candidates.ends[e] as usize].store(true, Relaxed);
-                        any.store(true, Relaxed);
+                let numbers = self.candidates.from(v).map(|e| e as u32);
+                mail.extend(numbers.zip(work.messages.iter().copied()));
+            }
+        }
+    }
+
+    /// Damp the new messages into `sent`; where one changed, both of its ends are active.
+    fn deliver(&self, mail: &[Mail], sent: &mut [f32], active: &[AtomicBool]) {
+        let mut firsts = Vec::with_capacity(mail.len());
+        let mut first = 0;
+        for length in self.candidates.grains() {
+            firsts.push(first);
+            first += length;
+        }
+        let parts = split(sent, self.candidates.grains());
+        each(parts.into_iter().zip(mail), |(k, (sent, mail))| {
+            for &(e, message) in mail {
+                let own = &mut sent[e as usize - firsts[k]];
+                let change = (message - *own) / 2.0;
+                *own = f32::midpoint(*own, message);
+                if change.abs() > CONVERGED {
+                    let twin = self.candidates.twins[e as usize] as usize;
+                    for v in [self.candidates.ends[e as usize], self.candidates.ends[twin]] {
+                        active[v as usize].store(true, Relaxed);
                     }
                 }
             }
         });
-        any.into_inner()
     }
 
     /// Put the messages of `v` into `work`.
@@ -148,19 +153,19 @@ struct Work {
 impl Work {
     /// What each edge finds at `v` as the second of a pair, and all pairs.
     fn pair_up(&mut self, factors: &Factors<'_>, v: usize) {
-        let Factors { candidates, geometry, costs } = factors;
+        let Factors { candidates, spacing, turns, costs } = factors;
         let count = candidates.pairs(v);
         debug_assert!(count <= MOST_PAIRED);
-        let lengths = &geometry.lengths[candidates.from(v)][..count];
-        let mut turns = geometry.turns[geometry.starts[v]..].iter();
+        let lengths = &spacing.lengths[candidates.from(v)][..count];
+        let mut turns = turns.at(v).iter();
         self.count = count;
         self.seconds.clear();
         self.seconds.resize(self.incoming.len(), f32::INFINITY);
         self.pairs.resize(MOST_PAIRED * MOST_PAIRED, f32::INFINITY);
         for i in 0..count {
             for j in i + 1..count {
-                let turn = turns.next().expect("a turn for each pair");
-                let cost = costs.turns[v] * turn + costs.steps[v] * (lengths[i] - lengths[j]).abs();
+                let &turn = turns.next().expect("a turn for each pair");
+                let cost = costs.pair(v, turn, [lengths[i], lengths[j]]);
                 self.seconds[i] = self.seconds[i].min(cost + self.incoming[j]);
                 self.seconds[j] = self.seconds[j].min(cost + self.incoming[i]);
                 self.pairs[i * MOST_PAIRED + j] = cost + (self.incoming[i] + self.incoming[j]);

@@ -7,10 +7,12 @@ mod candidates;
 mod constants;
 mod costs;
 mod decode;
+mod gaps;
 mod geometry;
 mod guard;
 mod messages;
 mod prune;
+mod rings;
 mod roughness;
 mod selection;
 
@@ -19,10 +21,11 @@ use crate::edges::{Edges, rows, sort};
 use crate::error::Result;
 use crate::progress::{Progress, Stage};
 use candidates::Candidates;
+use constants::HOPELESS;
 pub use constants::{CONSTANTS, Constants};
-use costs::Costs;
+use costs::{Costs, first_edge_costs};
 use decode::decode;
-use geometry::Geometry;
+use geometry::{Spacing, Turns};
 use messages::Factors;
 use roughness::Roughness;
 use selection::Selection;
@@ -36,35 +39,31 @@ use selection::Selection;
 /// Too many points, or a cancelled `progress`.
 pub fn connect(delaunay: &Delaunay, constants: &Constants, progress: &Progress) -> Result<Edges> {
     progress.enter(Stage::Select, delaunay.points().len())?;
-    let candidates = Candidates::new(delaunay, progress)?;
-    let geometry = Geometry::new(delaunay, &candidates);
+    let mut candidates = Candidates::new(delaunay, progress)?;
+    let mut spacing = Spacing::new(delaunay, &candidates, constants);
     progress.advance(0)?;
+    let hope: Vec<bool> = first_edge_costs(&candidates, &spacing, constants)
+        .into_iter()
+        .map(|cost| cost <= HOPELESS)
+        .collect();
+    candidates.retain(&mut spacing.lengths, &hope);
+    let turns = Turns::new(delaunay, &candidates);
     let mut sent = vec![0.0; candidates.ends.len()];
-    let first =
-        round(&candidates, &geometry, &Roughness::default(), constants, &mut sent, progress)?;
-    let rough = Roughness::new(&candidates, &geometry, &first.1, constants);
-    let (costs, mut selection) =
-        round(&candidates, &geometry, &rough, constants, &mut sent, progress)?;
-    let factors = Factors { candidates: &candidates, geometry: &geometry, costs: &costs };
-    prune::prune(&factors, &geometry.nearest, constants, &mut selection);
-    let edges = edges(delaunay, &candidates, &selection);
-    guard::guard(delaunay, edges, progress)
-}
-
-/// One round of messages.
-fn round(
-    candidates: &Candidates,
-    geometry: &Geometry,
-    rough: &Roughness,
-    constants: &Constants,
-    sent: &mut Vec<f32>,
-    progress: &Progress,
-) -> Result<(Costs, Selection)> {
-    let costs = Costs::new(candidates, geometry, rough, constants);
-    let factors = Factors { candidates, geometry, costs: &costs };
-    factors.converge(sent, progress)?;
-    let selection = decode(candidates, &factors.beliefs(sent));
-    Ok((costs, selection))
+    let mut round = |rough: &Roughness| {
+        let costs = Costs::new(&candidates, &spacing, rough, constants);
+        let factors =
+            Factors { candidates: &candidates, spacing: &spacing, turns: &turns, costs: &costs };
+        factors.converge(&mut sent, progress)?;
+        let selection = decode(&candidates, &factors.beliefs(&sent));
+        Ok((costs, selection))
+    };
+    let (_, first) = round(&Roughness::default())?;
+    let rough = Roughness::new(&candidates, &spacing, &turns, &first, constants);
+    let (costs, mut selection) = round(&rough)?;
+    let factors =
+        Factors { candidates: &candidates, spacing: &spacing, turns: &turns, costs: &costs };
+    prune::prune(&factors, constants, &mut selection);
+    guard::guard(delaunay, edges(delaunay, &candidates, &selection), progress)
 }
 
 fn edges(delaunay: &Delaunay, candidates: &Candidates, selection: &Selection) -> Edges {

@@ -1,34 +1,40 @@
 //! Outliers that were joined to each other: small components are dropped where points are isolated.
 
-use super::constants::{Constants, FEWEST, PRUNE_COST, PRUNE_FROM, PRUNE_STEP, SMALL};
+use super::constants::{Constants, FEWEST, PRUNE_FROM, SMALL};
 use super::messages::Factors;
+use super::rings::median;
 use super::selection::Selection;
 
 /// Drop components that look like outliers in a row, if there are outliers at all.
-pub fn prune(
-    factors: &Factors<'_>,
-    nearest: &[f64],
-    constants: &Constants,
-    selection: &mut Selection,
-) {
-    let isolated: Vec<usize> = (0..nearest.len()).filter(|&v| selection.degrees[v] == 0).collect();
-    if isolated.len() < PRUNE_FROM {
+pub fn prune(factors: &Factors<'_>, constants: &Constants, selection: &mut Selection) {
+    let vertices = factors.candidates.vertices();
+    let is_isolated = |&v: &usize| selection.degrees[v] == 0;
+    let mut distances: Vec<f64> =
+        (0..vertices).filter(is_isolated).map(|v| factors.spacing.nearest[v]).collect();
+    if distances.len() < PRUNE_FROM {
         return;
     }
-    let mut distances: Vec<f64> = isolated.iter().map(|&v| nearest[v]).collect();
-    let apart = median(&mut distances);
-    let mut seen = vec![false; nearest.len()];
-    for v in 0..nearest.len() {
-        if selection.degrees[v] == 0 || seen[v] {
-            continue;
-        }
-        let component = component(factors, selection, v, &mut seen);
-        if component.len() < SMALL
-            && is_outlier(factors, selection, &component, apart, nearest, constants)
-        {
-            drop_edges(factors, selection, &component);
+    let apart = median(&mut distances).unwrap_or_default();
+    let components = components(factors, selection);
+    let most = components.iter().map(Vec::len).max().unwrap_or_default() as f64;
+    let limit = (most * constants.prune_size).max(SMALL as f64);
+    for component in components.iter().filter(|component| (component.len() as f64) < limit) {
+        if is_outlier(factors, selection, component, apart, constants) {
+            drop_edges(factors, selection, component);
         }
     }
+}
+
+/// The components that have edges, each as its vertices.
+fn components(factors: &Factors<'_>, selection: &Selection) -> Vec<Vec<usize>> {
+    let mut seen = vec![false; factors.candidates.vertices()];
+    let mut components = Vec::new();
+    for v in 0..seen.len() {
+        if selection.degrees[v] > 0 && !seen[v] {
+            components.push(component(factors, selection, v, &mut seen));
+        }
+    }
+    components
 }
 
 fn component(
@@ -58,7 +64,6 @@ fn is_outlier(
     selection: &Selection,
     component: &[usize],
     apart: f64,
-    nearest: &[f64],
     constants: &Constants,
 ) -> bool {
     if component.len() < FEWEST {
@@ -71,19 +76,18 @@ fn is_outlier(
         for e in selection.from(factors.candidates, v) {
             // Both ends of each edge are here.
             cost += f64::from(factors.costs.edges[e]) / 2.0;
-            steps.push(nearest[v] * libm::exp(f64::from(factors.geometry.lengths[e])));
+            steps.push(factors.spacing.length(v, e));
         }
     }
-    median(&mut steps) >= PRUNE_STEP * apart
-        && cost >= PRUNE_COST * constants.alone * component.len() as f64
+    median(&mut steps).is_some_and(|step| step >= constants.prune_step * apart)
+        && cost >= constants.prune_cost * constants.alone * component.len() as f64
 }
 
 fn vertex_cost(factors: &Factors<'_>, selection: &Selection, v: usize) -> f32 {
-    let Factors { candidates, geometry, costs } = factors;
-    let Some([i, j]) = selection.pair(candidates, v) else { return costs.ends[v] };
-    let first = candidates.from(v).start;
-    let step = (geometry.lengths[first + i] - geometry.lengths[first + j]).abs();
-    costs.turns[v] * geometry.turn(candidates, v, i, j) + costs.steps[v] * step
+    let Factors { candidates, spacing, turns, costs } = factors;
+    let Some(pair) = selection.pair(candidates, v) else { return costs.ends[v] };
+    let lengths = pair.map(|k| spacing.lengths[candidates.from(v).start + k]);
+    costs.pair(v, turns.of(candidates, v, pair), lengths)
 }
 
 fn drop_edges(factors: &Factors<'_>, selection: &mut Selection, component: &[usize]) {
@@ -92,10 +96,4 @@ fn drop_edges(factors: &Factors<'_>, selection: &mut Selection, component: &[usi
             selection.set(factors.candidates, e, false);
         }
     }
-}
-
-fn median(values: &mut [f64]) -> f64 {
-    values.sort_unstable_by(f64::total_cmp);
-    let count = values.len();
-    f64::midpoint(values[(count - 1) / 2], values[count / 2])
 }

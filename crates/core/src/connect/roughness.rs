@@ -3,18 +3,22 @@
 
 use super::candidates::{Candidates, by_vertex};
 use super::constants::{Constants, ROUGHNESS_RINGS};
-use super::geometry::{Geometry, ring_median};
+use super::gaps::Gaps;
+use super::geometry::{Spacing, Turns};
+use super::rings::ring_median;
 use super::selection::Selection;
 
 /// What the first round found around each vertex; empty before.
 #[derive(Debug, Default)]
 pub struct Roughness {
     /// The usual turn, in half turns.
-    turns: Vec<f32>,
+    turns: Vec<f64>,
     /// The usual logarithm of the ratio of successive steps.
-    steps: Vec<f32>,
+    steps: Vec<f64>,
     /// The share of the points as far out that are isolated.
     isolated: Vec<f32>,
+    /// What gaps cost.
+    pub gaps: Gaps,
 }
 
 impl Roughness {
@@ -22,30 +26,31 @@ impl Roughness {
     #[must_use]
     pub fn new(
         candidates: &Candidates,
-        geometry: &Geometry,
+        spacing: &Spacing,
+        turns: &Turns,
         selection: &Selection,
         constants: &Constants,
     ) -> Self {
-        let vertices = candidates.vertices();
         let smooth = |value: &(dyn Fn(usize, [usize; 2]) -> f32 + Sync)| {
-            let mut values = by_vertex(vertices, |v| {
-                selection.pair(candidates, v).map_or(f32::NAN, |pair| value(v, pair))
+            let mut values = by_vertex(candidates.vertices(), |v| {
+                selection.pair(candidates, v).map_or(f64::NAN, |pair| f64::from(value(v, pair)))
             });
             for _ in 0..ROUGHNESS_RINGS {
-                values = ring_median(candidates, &values);
+                values = ring_median(candidates, &values, |_, _| true);
             }
             values
         };
-        let turns = smooth(&|v, [i, j]| {
-            let root = geometry.turn(candidates, v, i, j);
-            root * root
-        });
-        let steps = smooth(&|v, [i, j]| {
-            let first = candidates.from(v).start;
-            (geometry.lengths[first + i] - geometry.lengths[first + j]).abs()
-        });
-        let isolated = isolated_share(geometry, selection, constants);
-        Self { turns, steps, isolated }
+        let turn = |v: usize, pair: [usize; 2]| turns.of(candidates, v, pair).powi(2);
+        let step = |v: usize, pair: [usize; 2]| {
+            let [a, b] = pair.map(|k| spacing.lengths[candidates.from(v).start + k]);
+            (a - b).abs()
+        };
+        Self {
+            turns: smooth(&turn),
+            steps: smooth(&step),
+            isolated: isolated_share(spacing, selection, constants),
+            gaps: Gaps::new(candidates, spacing, selection, constants),
+        }
     }
 
     /// The usual turn around `v`, in half turns; 0 if nothing is known.
@@ -54,41 +59,41 @@ impl Roughness {
         known(&self.turns, v)
     }
 
-    /// How much turning weighs at `v`.
+    /// How much turning weighs at `v`: less where the curve turns much anyway.
     #[must_use]
     pub fn turn_weight(&self, v: usize, constants: &Constants) -> f64 {
-        weight(self.turn(v), constants.rough_turn, constants.rough_turn_power)
+        let ratio = self.turn(v) / constants.rough_turn;
+        1.0 / (1.0 + ratio * ratio)
     }
 
-    /// How much lengths weigh at `v`.
+    /// How much lengths weigh at `v`: nothing once steps are wilder than the limit, and in full below.
     #[must_use]
     pub fn step_weight(&self, v: usize, constants: &Constants) -> f64 {
-        weight(known(&self.steps, v), constants.rough_step, constants.rough_step_power)
+        let ratio = known(&self.steps, v) / constants.rough_step;
+        let cube = ratio * ratio * ratio;
+        1.0 / (1.0 + cube * cube)
     }
 
     /// How much being alone weighs at `v`.
     #[must_use]
     pub fn alone_weight(&self, v: usize, constants: &Constants) -> f64 {
-        1.0 - constants.alone_share * known(&self.isolated, v)
+        let share = self.isolated.get(v).copied().unwrap_or_default();
+        1.0 - constants.alone_share * f64::from(share)
     }
 }
 
-fn known(values: &[f32], v: usize) -> f64 {
-    values.get(v).map_or(0.0, |&value| if value.is_nan() { 0.0 } else { f64::from(value) })
-}
-
-fn weight(value: f64, half: f64, power: f64) -> f64 {
-    1.0 / (1.0 + libm::pow(value / half, power))
+fn known(values: &[f64], v: usize) -> f64 {
+    values.get(v).copied().filter(|value| !value.is_nan()).unwrap_or_default()
 }
 
 /// For each vertex the share of isolated ones among those about as far from others, relative to the spacing around.
-fn isolated_share(geometry: &Geometry, selection: &Selection, constants: &Constants) -> Vec<f32> {
-    let vertices = geometry.crowding.len();
-    let remote = |v: usize| -geometry.crowding[v];
+fn isolated_share(spacing: &Spacing, selection: &Selection, constants: &Constants) -> Vec<f32> {
+    let vertices = spacing.crowding.len();
+    let remote = |v: usize| -spacing.crowding[v];
     let mut isolated: Vec<f32> =
         (0..vertices).filter(|&v| selection.degrees[v] == 0).map(remote).collect();
     if isolated.is_empty() {
-        return vec![0.0; vertices];
+        return Vec::new();
     }
     let mut all: Vec<f32> = (0..vertices).map(remote).collect();
     isolated.sort_unstable_by(f32::total_cmp);

@@ -40,6 +40,13 @@ impl Selection {
         candidates.from(v).filter(|&e| self.chosen[e])
     }
 
+    /// The other half-edge chosen where `e` leads, if there is one.
+    #[must_use]
+    pub fn next(&self, candidates: &Candidates, e: usize) -> Option<usize> {
+        let back = candidates.twins[e] as usize;
+        self.from(candidates, candidates.ends[e] as usize).find(|&next| next != back)
+    }
+
     /// The two half-edges chosen at `v`, counted from its first, if there are two and they form a pair.
     #[must_use]
     pub fn pair(&self, candidates: &Candidates, v: usize) -> Option<[usize; 2]> {

@@ -1,0 +1,106 @@
+//! Gaps: edges much longer than the steps of the curve around them, where these are much alike.
+
+use super::candidates::{Candidates, by_vertex};
+use super::constants::{Constants, GAP_FEWEST, GAP_SURE, GAP_WINDOW};
+use super::geometry::Spacing;
+use super::selection::Selection;
+
+/// The usual steps along the curve found first.
+#[derive(Debug, Clone, Copy, Default)]
+struct Usual {
+    /// The logarithm of the longest usual step over the distance to the nearest neighbor; infinite where nothing is known.
+    step: f32,
+    /// How far that is to be trusted, from 0 to 1.
+    trust: f32,
+}
+
+/// What gaps cost around each vertex; nothing before the first round.
+#[derive(Debug, Default)]
+pub struct Gaps {
+    usual: Vec<Usual>,
+}
+
+impl Gaps {
+    /// Gaps by the steps of a selection.
+    #[must_use]
+    pub fn new(
+        candidates: &Candidates,
+        spacing: &Spacing,
+        selection: &Selection,
+        constants: &Constants,
+    ) -> Self {
+        let usual = by_vertex(candidates.vertices(), |v| {
+            let mut steps = steps_around(candidates, spacing, selection, v);
+            let count = steps.len();
+            let Some(step) = usual_step(&mut steps, constants) else { return Usual::none() };
+            // Where both edges are long the curve is sparse, and has no gap.
+            let is_long = |e: usize| spacing.length(v, e) > constants.gap_jump * step;
+            if selection.degrees[v] == 2 && selection.from(candidates, v).all(is_long) {
+                return Usual::none();
+            }
+            let step = libm::log(step / spacing.nearest[v]) as f32;
+            Usual { step, trust: (count as f32 / GAP_SURE).min(1.0) }
+        });
+        Self { usual }
+    }
+
+    /// What the edge of half-edge `e` between two vertices pays if it is a gap as seen from both.
+    #[must_use]
+    pub fn cost(
+        &self,
+        candidates: &Candidates,
+        spacing: &Spacing,
+        [v, end]: [usize; 2],
+        e: usize,
+        constants: &Constants,
+    ) -> f32 {
+        if self.usual.is_empty() {
+            return 0.0;
+        }
+        let seen = |v: usize, e: usize| {
+            let Usual { step, trust } = self.usual[v];
+            trust * (spacing.lengths[e] - step - constants.gap_free as f32).max(0.0)
+        };
+        constants.gap as f32 * seen(v, e).min(seen(end, candidates.twins[e] as usize))
+    }
+}
+
+impl Usual {
+    fn none() -> Self {
+        Self { step: f32::INFINITY, trust: 0.0 }
+    }
+}
+
+/// The steps along the curve on both sides of `v`.
+fn steps_around(
+    candidates: &Candidates,
+    spacing: &Spacing,
+    selection: &Selection,
+    v: usize,
+) -> Vec<f64> {
+    let mut steps = Vec::with_capacity(2 * GAP_WINDOW);
+    for first in selection.from(candidates, v) {
+        let (mut at, mut e) = (v, first);
+        for _ in 0..GAP_WINDOW {
+            steps.push(spacing.length(at, e));
+            at = candidates.ends[e] as usize;
+            let Some(next) = selection.next(candidates, e) else { break };
+            if at == v {
+                break;
+            }
+            e = next;
+        }
+    }
+    steps
+}
+
+/// The longest of the usual steps: those from the median on up to where the next is much longer.
+fn usual_step(steps: &mut [f64], constants: &Constants) -> Option<f64> {
+    if steps.len() < GAP_FEWEST {
+        return None;
+    }
+    steps.sort_unstable_by(f64::total_cmp);
+    let from = &steps[(steps.len() - 1) / 2..];
+    let jump = from.windows(2).find(|pair| pair[1] >= constants.gap_jump * pair[0]);
+    Some(jump.map_or(from[from.len() - 1], |pair| pair[0]))
+}

@@ -1,0 +1,42 @@
+//! Medians over rings of neighbors: smoothing that a few wild values do not move.
+
+use super::candidates::{Candidates, GRAIN, each};
+
+/// For each vertex the median of the values at it and at those neighbors that count, as seen from it along a half-edge.
+///
+/// Values that are not numbers do not count; where none does the value stays.
+#[must_use]
+pub fn ring_median(
+    candidates: &Candidates,
+    values: &[f64],
+    counts: impl Fn(usize, usize) -> bool + Sync,
+) -> Vec<f64> {
+    let mut medians = values.to_vec();
+    each(medians.chunks_mut(GRAIN), |(k, part)| {
+        let mut ring = Vec::new();
+        for (i, own) in part.iter_mut().enumerate() {
+            let v = k * GRAIN + i;
+            let near = candidates.from(v).filter(|&e| counts(v, e));
+            ring.clear();
+            ring.extend(near.map(|e| values[candidates.ends[e] as usize]).chain([*own]));
+            ring.retain(|value| !value.is_nan());
+            *own = median(&mut ring).unwrap_or(*own);
+        }
+    });
+    medians
+}
+
+/// The median, of an even number the mean of the two in the middle; `None` of none.
+#[must_use]
+pub fn median(values: &mut [f64]) -> Option<f64> {
+    let count = values.len();
+    if count == 0 {
+        return None;
+    }
+    let (low, &mut middle, _) = values.select_nth_unstable_by(count / 2, f64::total_cmp);
+    if count % 2 == 1 {
+        return Some(middle);
+    }
+    let below = low.iter().copied().max_by(f64::total_cmp)?;
+    Some(f64::midpoint(below, middle))
+}
