@@ -12,6 +12,7 @@ __all__ = [
     "is_canonical",
     "medial_axis",
     "select",
+    "select_by_group",
     "shells",
     "trace",
 ]
@@ -42,6 +43,15 @@ def connect(
 ) -> _Integers: ...
 def select(
     delaunay: Delaunay,
+    method: str,
+    parameters: list[float],
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
+def select_by_group(
+    points: _Floats,
+    rows: _Integers,
+    ends: _Integers,
     method: str,
     parameters: list[float],
     threads: int | None = None,

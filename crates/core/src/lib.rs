@@ -3,7 +3,7 @@
 //! The crust and the β-skeleton of N. Amenta, M. Bern and D. Eppstein, "The Crust and the β-Skeleton:
 //! Combinatorial Curve Reconstruction", Graphical Models and Image Processing 60 (1998), and the graphs
 //! that they are compared with, on a Delaunay triangulation of our own. No Python, no input or output,
-//! no global state; parallel work runs on the current rayon pool and never changes an answer.
+//! no global state but the memory that a thread works in; parallel work runs on the current rayon pool and never changes an answer.
 
 mod adjacency;
 pub mod certify;
@@ -15,6 +15,7 @@ mod error;
 mod exact;
 mod forbidden_region;
 mod forest;
+pub mod groups;
 pub mod interpolant;
 pub mod medial_axis;
 pub mod methods;

@@ -70,7 +70,9 @@ pub fn try_each<T: Send>(
 /// Do `work`, which cannot fail, on each of `parts`, with its number.
 pub fn each<T: Send>(parts: Vec<T>, work: impl Fn(usize, T) + Sync + Send) {
     if parts.len() <= 1 {
-        parts.into_iter().for_each(|part| work(0, part));
+        for part in parts {
+            work(0, part);
+        }
     } else {
         parts.into_par_iter().enumerate().for_each(|(k, part)| work(k, part));
     }

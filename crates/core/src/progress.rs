@@ -1,6 +1,7 @@
 //! Watching and stopping a long call from another thread, without a callback inside the core.
 
 use crate::error::{Error, Result};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 
 /// The stages of a call, in the order in which they run.
@@ -37,7 +38,7 @@ pub enum Stage {
 /// The state of a running call: shared by reference, written by the workers, read by the caller.
 #[derive(Debug, Default)]
 pub struct Progress {
-    cancelled: AtomicBool,
+    cancelled: Arc<AtomicBool>,
     stage: AtomicUsize,
     done: AtomicUsize,
     total: AtomicUsize,
@@ -47,6 +48,12 @@ impl Progress {
     /// Ask the call to stop; it returns [`Error::Cancelled`] soon after.
     pub fn cancel(&self) {
         self.cancelled.store(true, Relaxed);
+    }
+
+    /// The progress of a part of the call: it stops with the whole, and what it reports is not shown.
+    #[must_use]
+    pub fn quiet(&self) -> Self {
+        Self { cancelled: Arc::clone(&self.cancelled), ..Self::default() }
     }
 
     /// The current stage's name and the fraction of it that is done.

@@ -6,6 +6,7 @@ mod connect;
 mod delaunay;
 mod edges;
 mod errors;
+mod groups;
 mod interpolant;
 mod medial_axis;
 mod methods;
@@ -23,6 +24,8 @@ mod _core {
     use crate::delaunay::Delaunay;
     #[pymodule_export]
     use crate::edges::is_canonical;
+    #[pymodule_export]
+    use crate::groups::select_by_group;
     #[pymodule_export]
     use crate::interpolant::Interpolant;
     #[pymodule_export]

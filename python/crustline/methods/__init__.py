@@ -12,6 +12,7 @@ from crustline.methods.alpha_shapes import a_shape, alpha_shape
 from crustline.methods.connect import connect
 from crustline.methods.crusts import as_selected, crust, nn_crust, one_step_crust, rcgh
 from crustline.methods.greedy import crawl, peel
+from crustline.methods.groups import by_group
 from crustline.methods.nearest import compatible_crust, hnn_crust, sig_delaunay
 from crustline.methods.neighborhoods import (
     beta_skeleton,
@@ -60,6 +61,7 @@ __all__ = [
     "alpha_shape",
     "as_selected",
     "beta_skeleton",
+    "by_group",
     "check_parameters",
     "compatible_crust",
     "connect",
