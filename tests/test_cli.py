@@ -162,7 +162,7 @@ BAD_TEXT = [
     ("x,y\n1,2\n3\n", ["line 3", "1 column"]),
     ("x,y\n1,2\n3,\n", ["line 3", "missing"]),
     ("", ["empty"]),
-    ("p,q\n1,2\n", ["'p', 'q'", "--columns"]),
+    ("p,q,r\n1,2,3\n", ["'p', 'q', 'r'", "--columns"]),
     ("\x00\x01\x02", ["bad.csv"]),
 ]
 

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import os
 import sys
+import warnings
 from collections.abc import Sequence
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import click
 
@@ -20,13 +21,16 @@ from crustline.cli.method import list_methods
 from crustline.cli.pictures import plot, smooth
 from crustline.cli.reconstruct import reconstruct
 from crustline.cli.sampling import sample, thin
-from crustline.errors import CrustlineError
+from crustline.errors import CrustlineError, FormatWarning
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
     """Run the command with some arguments, by default those of the process, and exit."""
     try:
-        code = commands.main(args=arguments, prog_name="crustline", standalone_mode=False)
+        with warnings.catch_warnings():
+            warnings.simplefilter("always", FormatWarning)
+            warnings.showwarning = _warn
+            code = commands.main(args=arguments, prog_name="crustline", standalone_mode=False)
         sys.stdout.flush()
     except (click.Abort, KeyboardInterrupt):
         _exit(130, "interrupted")
@@ -47,6 +51,11 @@ def _exit(code: int, message: str) -> NoReturn:
     line = " ".join(message.split())
     click.echo(f"crustline: {'error: ' if code == 2 else ''}{line}", err=True)
     sys.exit(code)
+
+
+def _warn(message: Warning | str, *about: Any) -> None:
+    """Say a warning in a line; only its words are for users."""
+    click.echo(f"crustline: warning: {' '.join(str(message).split())}", err=True)
 
 
 def _advise(error: click.ClickException) -> str:

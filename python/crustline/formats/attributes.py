@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,18 +11,7 @@ import numpy.typing as npt
 
 from crustline.arrays import FloatArray, IntArray
 from crustline.curves import Curves
-from crustline.errors import FormatError
 from crustline.points import Points
-
-# Names of x and y, the surest first.
-_PAIRS = (
-    ("x", "y"),
-    ("lon", "lat"),
-    ("longitude", "latitude"),
-    ("easting", "northing"),
-    ("e", "n"),
-)
-_HEIGHTS = ("z", "elevation", "height")
 
 
 @dataclass(frozen=True)
@@ -64,53 +53,6 @@ def coordinates_with_height(curves: Curves, rows: IntArray) -> FloatArray:
     z = attributes_of(curves).z
     coordinates = curves.points.xy[rows]
     return coordinates if z is None else np.column_stack([coordinates, z[rows]])
-
-
-def find_coordinates(
-    names: Sequence[str], chosen: Sequence[str | int] | None, source: str
-) -> list[int]:
-    """Return the positions of x, y and, if there is one, z among the names of columns."""
-    if chosen is not None:
-        return [_position(each, names, source) for each in chosen]
-    lower = [name.strip().lower() for name in names]
-    pair = find_pair(names)
-    if pair is None:
-        raise FormatError(
-            f"{source} has no columns x and y, only {quote_all(names)}: "
-            "choose two of them with columns (--columns X,Y)"
-        )
-    heights = [lower.index(name) for name in _HEIGHTS if name in lower]
-    return [*pair, *heights[:1]]
-
-
-def find_pair(names: Sequence[str]) -> tuple[int, int] | None:
-    """Return the positions of the first known pair of names, in any case."""
-    lower = [name.strip().lower() for name in names]
-    pairs = ((lower.index(x), lower.index(y)) for x, y in _PAIRS if x in lower and y in lower)
-    return next(pairs, None)
-
-
-def _position(chosen: str | int, names: Sequence[str], source: str) -> int:
-    if isinstance(chosen, str):
-        if chosen in names:
-            return list(names).index(chosen)
-        lower = [name.lower() for name in names]
-        if lower.count(chosen.lower()) == 1:
-            return lower.index(chosen.lower())
-        if chosen.isdecimal():
-            chosen = int(chosen)
-    if isinstance(chosen, int) and 0 <= chosen < len(names):
-        return chosen
-    raise FormatError(
-        f"{source} has no column {chosen!r}: choose from {quote_all(names)}, "
-        f"or a position from 0 to {len(names) - 1}"
-    )
-
-
-def quote_all(names: Sequence[str]) -> str:
-    """Return names as a message lists them; a long list is cut."""
-    shown = ", ".join(map(repr, names[:20]))
-    return shown + (f" and {len(names) - 20} more" if len(names) > 20 else "")
 
 
 def texts(values: npt.NDArray[Any]) -> list[str]:

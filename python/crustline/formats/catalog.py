@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from crustline.errors import InputError
-from crustline.formats.csv import CSV, TSV, XYZ
 from crustline.formats.format import Format, Option
 from crustline.formats.geojson import GEOJSON
 from crustline.formats.npy import NPY, NPZ
 from crustline.formats.source import Source
 from crustline.formats.svg import SVG
 from crustline.formats.target import Target
+from crustline.formats.text import CSV, TSV, XYZ
 from crustline.formats.wkt import WKT
 
 __all__ = ["FORMATS", "able", "format_of_source", "format_of_target", "options_for", "suffixes_for"]

@@ -21,7 +21,8 @@ To add a format:
    raises belongs into ``with source.library("ezdxf"):``, which makes it a `FormatError`.
 
 2. Declare its options as `Option` values, or take them from `crustline.formats.options`. Their
-   names are the keyword-only parameters of the functions that take them; checking them, refusing
+   names are the keyword-only parameters of the functions that take them (all of them, if it is
+   ``**options``); checking them, refusing
    them where nothing takes them, and the command's help are done for you.
 
 3. Export a `Format`, and put it into `FORMATS` in `crustline.formats.catalog`. If it needs
@@ -150,7 +151,8 @@ class Format:
         """Return the options that its function for a task takes."""
         function = getattr(self, task)
         known = signature(function).parameters if function else {}
-        return tuple(option for option in self.options if option.name in known)
+        every = any(each.kind is each.VAR_KEYWORD for each in known.values())
+        return tuple(option for option in self.options if every or option.name in known)
 
     def settings(self, task: str, given: Mapping[str, Any]) -> dict[str, Any]:
         """Return the options of a task, checked; None counts as not given."""

@@ -10,13 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from crustline.errors import FormatError, InputError
-from crustline.formats.attributes import (
-    attributes_of_points,
-    find_coordinates,
-    find_pair,
-    quote_all,
-)
+from crustline.formats.attributes import attributes_of_points
 from crustline.formats.format import Format
+from crustline.formats.names import find_coordinates, find_pair, quote_all
 from crustline.formats.options import COLUMNS
 from crustline.formats.source import Source
 from crustline.formats.target import Target

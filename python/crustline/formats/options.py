@@ -8,7 +8,17 @@ from typing import Any
 from crustline.formats.format import Option
 from crustline.scalars import as_positive
 
-__all__ = ["COLUMNS", "POLYGONS", "TOLERANCE", "choice", "flag", "length", "text", "whole"]
+__all__ = [
+    "COLUMNS",
+    "ENCODING",
+    "POLYGONS",
+    "TOLERANCE",
+    "choice",
+    "flag",
+    "length",
+    "text",
+    "whole",
+]
 
 
 def text(name: str, help: str, metavar: str, *, flag: str = "") -> Option:
@@ -93,4 +103,20 @@ COLUMNS = Option(
 POLYGONS = flag("polygons", "Write rings as polygons with holes.")
 TOLERANCE = length(
     "tolerance", "How far splines may be from what is written, in the unit of the points.", "T"
+)
+
+
+def _as_encoding(value: Any) -> str:
+    try:
+        "".encode(value)  # which refuses codecs that are none of text
+        return str(value)
+    except (LookupError, TypeError, ValueError):
+        raise ValueError("give the name of an encoding, such as latin-1") from None
+
+
+ENCODING = Option(
+    "encoding",
+    "The encoding of the text. By default UTF-8, or UTF-16 where it is plain.",
+    _as_encoding,
+    "NAME",
 )

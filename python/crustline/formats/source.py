@@ -22,11 +22,6 @@ __all__ = ["HEAD", "Source"]
 #: How many of the first bytes `Source.head` shows.
 HEAD = 4096
 _CHUNK = 1 << 20
-_BYTE_ORDER_MARKS = (
-    (b"\xef\xbb\xbf", "utf-8-sig"),
-    (b"\xff\xfe", "utf-16"),
-    (b"\xfe\xff", "utf-16"),
-)
 
 
 @dataclass(eq=False)
@@ -107,16 +102,15 @@ class Source:
     def text(self, encoding: str | None = None) -> str:
         """Return all text; by default UTF-8, or UTF-16 with its mark. Lines end with a newline."""
         content = self.content()
-        marks = (known for mark, known in _BYTE_ORDER_MARKS if content.startswith(mark))
+        found = encoding or likely_encoding(content)
         try:
-            text = content.decode(encoding or next(marks, "utf-8"))
+            text = content.decode(found)
         except UnicodeDecodeError as error:
             line = content.count(b"\n", 0, error.start) + 1
-            raise self.error(
-                f"byte 0x{content[error.start]:02x} is not {error.encoding.upper()} text: "
-                "save the file as UTF-8, or choose its format",
-                f"line {line}",
-            ) from None
+            advice = "say in which encoding the text is (--encoding latin-1, or another one)"
+            fault = f"byte 0x{content[error.start]:02x} is not {error.encoding.upper()} text"
+            raise self.error(f"{fault}: {advice}", f"line {line}") from None
+        self.note("encoding", found)
         return text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
 
     @contextmanager
@@ -228,6 +222,22 @@ def _name_of(given: Any) -> str:
         return "standard input" if os.fspath(given) == "-" else os.fspath(given)
     name = getattr(given, "name", None)
     return name if isinstance(name, str) else f"<{type(given).__name__}>"
+
+
+def likely_encoding(content: bytes) -> str:
+    """Return the encoding that a mark says, or that every other byte being 0 shows; else UTF-8."""
+    marks = (
+        (b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"),
+    )  # fmt: skip
+    for mark, encoding in marks:
+        if content.startswith(mark):
+            return encoding
+    head = content[: HEAD & ~1]
+    if len(head) > 1 and not any(head[1::2]) and all(head[::2]):
+        return "utf-16-le"
+    if len(head) > 1 and not any(head[::2]) and all(head[1::2]):
+        return "utf-16-be"
+    return "utf-8"
 
 
 def refuse_null(given: object) -> None:

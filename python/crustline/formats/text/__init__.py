@@ -1,0 +1,63 @@
+"""Columns of text, in five stages: bytes, lines, dialect, columns, coordinates.
+
+CSV, TSV, XYZ and plain columns are read alike, CSV and TSV are written. Points without curves are
+written as XYZ, too: numbers alone, without a header.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+from crustline.formats.format import Format
+from crustline.formats.source import Source
+from crustline.formats.text.columns import read_columns
+from crustline.formats.text.coordinates import as_points, choose_coordinates
+from crustline.formats.text.dialect import find_dialect
+from crustline.formats.text.lines import Lines, unbounded_cells
+from crustline.formats.text.settings import OPTIONS, Settings
+from crustline.formats.text.writer import write_curves, write_points, write_xyz
+from crustline.points import Points
+
+__all__ = ["CSV", "TSV", "XYZ"]
+
+
+def read(source: Source, **options: Any) -> Points:
+    """Return the points of columns of text; the options are those of `Settings`."""
+    settings = Settings(**options)
+    with unbounded_cells():
+        lines = Lines(source, source.text(settings.encoding).split("\n"), settings.skip_lines or 0)
+        if settings.comment is not None:
+            lines = lines.with_comments(settings.comment)
+        lines, dialect = find_dialect(lines, settings)
+        positions = choose_coordinates(lines, dialect, settings)
+        table = read_columns(lines, dialect, positions, settings)
+        return as_points(table, positions, settings)
+
+
+CSV = Format(
+    name="csv",
+    title="CSV",
+    suffixes=(".csv",),
+    read=read,
+    write_points=partial(write_points, delimiter=","),
+    write_curves=partial(write_curves, delimiter=","),
+    options=OPTIONS,
+)
+TSV = Format(
+    name="tsv",
+    title="TSV",
+    suffixes=(".tsv", ".tab"),
+    read=read,
+    write_points=partial(write_points, delimiter="\t"),
+    write_curves=partial(write_curves, delimiter="\t"),
+    options=OPTIONS,
+)
+XYZ = Format(
+    name="xyz",
+    title="XYZ",
+    suffixes=(".xyz", ".txt", ".dat", ".asc"),
+    read=read,
+    write_points=write_xyz,
+    options=OPTIONS,
+)
