@@ -29,7 +29,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("always", FormatWarning)
-            warnings.showwarning = _warn
+            warnings.showwarning = _warn  # type: ignore[assignment]  # needs the words alone
             code = commands.main(args=arguments, prog_name="crustline", standalone_mode=False)
         sys.stdout.flush()
     except (click.Abort, KeyboardInterrupt):
