@@ -9,6 +9,7 @@ __all__ = [
     "Interpolant",
     "__version__",
     "connect",
+    "first_not_finite",
     "is_canonical",
     "medial_axis",
     "select",
@@ -41,6 +42,7 @@ def connect(
     threads: int | None = None,
     progress: _Progress | None = None,
 ) -> _Integers: ...
+def first_not_finite(points: _Floats) -> int | None: ...
 def select(
     delaunay: Delaunay,
     method: str,

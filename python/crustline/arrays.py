@@ -56,9 +56,9 @@ def as_points(points: npt.ArrayLike) -> FloatArray:
     _check_dtype(array, points)
     _check_shape(array)
     coordinates = _as_float64(array)
-    finite = np.isfinite(coordinates)
-    if not finite.all():
-        row, column = np.argwhere(~finite)[0]
+    row = _core.first_not_finite(coordinates)
+    if row is not None:
+        column = int(np.isfinite(coordinates[row, 0]))
         raise InputError(
             f"points: row {row} has {coordinates[row, column]} in column {column}, "
             "which is not finite: remove or repair the row"
@@ -96,6 +96,8 @@ def _check_shape(array: npt.NDArray[Any]) -> None:
 
 
 def _as_float64(array: npt.NDArray[Any]) -> FloatArray:
+    if array.dtype == np.float64 and array.flags.c_contiguous and array.flags.aligned:
+        return array
     with np.errstate(over="ignore"):
         coordinates = np.require(array, np.float64, ["C_CONTIGUOUS", "ALIGNED"])
     wide = array.dtype.itemsize > 8 or (array.dtype.kind in "iu" and array.dtype.itemsize == 8)

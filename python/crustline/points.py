@@ -16,6 +16,9 @@ from crustline.notebook import table
 
 Column = npt.NDArray[Any]
 
+_NO_COLUMNS: Mapping[str, Column] = MappingProxyType({})
+_X_Y = ("x", "y")
+
 
 class Points:
     """Points of the plane, with heights, other columns and a CRS beside them; none of it changes.
@@ -80,15 +83,15 @@ class Points:
         z: npt.ArrayLike | None = None,
         columns: Mapping[str, npt.ArrayLike] | None = None,
         crs: str | None = None,
-        names: Sequence[str] = ("x", "y"),
+        names: Sequence[str] = _X_Y,
     ) -> None:
         xy = read_only(np.array(as_points(coordinates)))
         self._set(
             xy=xy,
             z=None if z is None else _as_heights(z, len(xy)),
-            columns=_as_columns({} if columns is None else columns, len(xy)),
+            columns=_NO_COLUMNS if columns is None else _as_columns(columns, len(xy)),
             crs=_as_crs(crs),
-            names=_as_names(names),
+            names=_X_Y if names is _X_Y else _as_names(names),
         )
 
     def _set(self, **values: object) -> None:

@@ -28,6 +28,23 @@ pub fn points<'a>(py: Python<'_>, array: &'a PyReadonlyArray2<'_, f64>) -> PyRes
     rows(py, array)
 }
 
+/// The first row with a coordinate that is not finite, if there is one.
+#[pyfunction]
+pub fn first_not_finite(
+    py: Python<'_>,
+    points: PyReadonlyArray2<'_, f64>,
+) -> PyResult<Option<usize>> {
+    /// Rows that are looked at without a branch.
+    const RUN: usize = 64;
+    let is_finite = |point: &Point| point[0].is_finite() & point[1].is_finite();
+    let rows = self::points(py, &points)?;
+    let run = |run: &[Point]| !run.iter().fold(true, |all, point| all & is_finite(point));
+    Ok(rows.chunks(RUN).position(run).and_then(|k| {
+        let start = RUN * k;
+        rows[start..].iter().position(|point| !is_finite(point)).map(|row| start + row)
+    }))
+}
+
 /// A fresh read-only array of integers, `width` to a row.
 pub fn integer_rows<'py, const N: usize>(
     py: Python<'py>,

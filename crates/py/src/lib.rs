@@ -19,6 +19,8 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
+    use crate::arrays::first_not_finite;
+    #[pymodule_export]
     use crate::connect::connect;
     #[pymodule_export]
     use crate::delaunay::Delaunay;
