@@ -8,14 +8,19 @@ __all__ = [
     "Delaunay",
     "Interpolant",
     "__version__",
+    "candidates",
     "connect",
+    "decide",
     "first_not_finite",
     "is_canonical",
+    "join_chains",
     "medial_axis",
     "select",
     "select_by_group",
     "shells",
+    "stars",
     "trace",
+    "trace_tile",
 ]
 
 __version__: str
@@ -23,6 +28,10 @@ __version__: str
 _Progress = Callable[[str, float], object]
 _Floats = NDArray[np.float64]
 _Integers = NDArray[np.int64]
+_Flags = NDArray[np.bool_]
+_Rule = tuple[str, list[float]]
+_Chains = tuple[_Integers, _Floats, _Integers]
+_Joined = tuple[tuple[_Integers, _Flags, _Integers], _Flags, _Chains]
 
 @final
 class Delaunay:
@@ -73,6 +82,34 @@ def shells(
     threads: int | None = None,
     progress: _Progress | None = None,
 ) -> _Integers: ...
+def decide(
+    delaunay: Delaunay,
+    rule: _Rule,
+    own: _Flags,
+    fresh: _Flags,
+    pairs: _Integers,
+    pieces: _Floats,
+    known: _Flags,
+    clear: _Floats,
+    most: int,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> tuple[_Integers, _Integers, _Integers, _Floats, _Integers, _Floats]: ...
+def candidates(
+    delaunay: Delaunay,
+    rule: _Rule,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> _Integers: ...
+def stars(delaunay: Delaunay, rows: _Integers) -> tuple[_Integers, _Integers]: ...
+def trace_tile(
+    points: _Floats, edges: _Integers, cut: _Flags, numbers: _Integers
+) -> tuple[
+    tuple[_Integers, _Integers, _Flags, _Integers], tuple[_Integers, _Integers], _Chains
+]: ...
+def join_chains(
+    sites: _Integers, places: _Floats, edges: _Integers, degrees: _Integers
+) -> list[_Joined]: ...
 def is_canonical(edges: _Integers, points: int) -> bool: ...
 def medial_axis(
     delaunay: Delaunay,

@@ -1,11 +1,12 @@
 //! Build one triangulation and crust of a generated set, and what is asked for after it, and print how long each took.
 //!
-//! `cargo run --release --example crust_once -- curves 1000000 [threads] [axis] [certificate]`
+//! `cargo run --release --example crust_once -- curves 1000000 [threads] [axis] [certificate] [tile]`
 
 use crustline_core::certify::measure;
 use crustline_core::interpolant::Interpolant;
 use crustline_core::medial_axis::medial_axis;
 use crustline_core::methods::crust;
+use crustline_core::tiles::{self, Bounds, Question, Unseen};
 use crustline_core::{Delaunay, Point, Progress};
 use std::time::Instant;
 
@@ -89,6 +90,10 @@ fn run(points: &[Point], wanted: &[String]) {
         let axis = || medial_axis(&delaunay, &edges, &progress).expect("no one cancels");
         timed("axis", axis, |axis| axis.edges.len());
     }
+    if wants("tile") {
+        let size = |decision: &tiles::Decision| decision.open_edges.len();
+        timed("tile", || decide(&delaunay, points), size);
+    }
     if wants("certificate") {
         let certificate = || {
             let interpolant =
@@ -97,6 +102,25 @@ fn run(points: &[Point], wanted: &[String]) {
         };
         timed("certificate", certificate, |measures| measures.ratios.len());
     }
+}
+
+/// The crust of the points as of a tile that more points surround on all sides.
+fn decide(delaunay: &Delaunay, points: &[Point]) -> tiles::Decision {
+    let fold = |f: fn(f64, f64) -> f64, axis: usize| {
+        points.iter().map(|p| p[axis]).reduce(f).expect("there are points")
+    };
+    let [[x, y], [z, w]] = [f64::min, f64::max].map(|f| [fold(f, 0), fold(f, 1)]);
+    let (width, height) = (z - x, w - y);
+    let piece = |dx: f64, dy: f64| {
+        let by = [dx * width * 1.000_001, dy * height * 1.000_001];
+        Bounds { low: [x + by[0], y + by[1]], high: [z + by[0], w + by[1]] }
+    };
+    let pieces = [piece(-1.0, 0.0), piece(1.0, 0.0), piece(0.0, -1.0), piece(0.0, 1.0)];
+    let clear = Bounds { low: [x, y], high: [z, w] };
+    let unseen = Unseen::new(&pieces, &[false; 4], clear, delaunay.scale());
+    let flags = vec![true; points.len()];
+    let question = Question { own: &flags, fresh: &flags, pairs: &[], unseen: &unseen, most: 4 };
+    tiles::decide(delaunay, &tiles::Crust, &question, &Progress::default()).expect("no one cancels")
 }
 
 fn main() {

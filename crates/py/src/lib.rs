@@ -11,6 +11,7 @@ mod interpolant;
 mod medial_axis;
 mod methods;
 mod nesting;
+mod tiles;
 mod trace;
 
 use pyo3::prelude::*;
@@ -36,6 +37,8 @@ mod _core {
     use crate::methods::select;
     #[pymodule_export]
     use crate::nesting::shells;
+    #[pymodule_export]
+    use crate::tiles::{candidates, decide, join_chains, stars, trace_tile};
     #[pymodule_export]
     use crate::trace::trace;
     use pyo3::prelude::*;

@@ -1,24 +1,21 @@
 //! Which edges are decided for good by the points that a tile has seen, and what the others need.
 
 use super::disk::Disk;
-use super::reach::Sectors;
-use super::rule::{Finding, Rule};
+use super::reach::{Reach, are_near};
+use super::rule::{Finding, Rule, Work};
 use super::unseen::Unseen;
 use crate::adjacency::vertices_of_rows;
 use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, rows, select, sort};
 use crate::error::Result;
+use crate::parts::{GRAIN, in_parts};
 use crate::point::{Point, length, sub};
 use crate::progress::{Progress, Stage};
 use crate::space::bounds::Bounds;
-use rayon::prelude::*;
+use std::ops::Range;
 
-/// Vertices that one task takes at a time.
-const GRAIN: usize = 1 << 12;
-/// Sectors of the first look at a vertex, which is enough far from what is unseen.
-const COARSE: usize = 8;
-/// Sectors of the second: a multiple of four, so that right angles are whole.
-const FINE: usize = 64;
+/// Sectors of direction around a vertex: a multiple of four, so that right angles are whole.
+const SECTORS: usize = 64;
 
 /// What is asked of the points in a triangulation.
 #[derive(Debug, Clone, Copy)]
@@ -66,15 +63,32 @@ pub fn decide<R: Rule>(
 ) -> Result<Decision> {
     let tile = Tile::new(delaunay, rule, question);
     progress.enter(Stage::Select, delaunay.points().len())?;
-    let starts: Vec<usize> = (0..delaunay.points().len()).step_by(GRAIN).collect();
-    let parts = starts.into_par_iter().map(|start| {
-        let part = tile.part(start);
-        progress.advance(GRAIN)?;
-        Ok(part)
-    });
-    let mut parts = parts.collect::<Result<Vec<Part>>>()?;
+    let vertices = delaunay.points().len();
+    let mut parts = in_parts(vertices, GRAIN, progress, |vertices| tile.part(vertices))?;
     parts.push(tile.pairs());
     Ok(tile.collect(parts))
+}
+
+/// A call of [`decide`] whose rule is yet to be found.
+#[derive(Debug, Clone, Copy)]
+pub struct Decide<'a>(pub &'a Delaunay, pub Question<'a>, pub &'a Progress);
+
+impl Work for Decide<'_> {
+    type Result = Decision;
+    fn by<R: Rule>(self, rule: &R) -> Result<Decision> {
+        decide(self.0, rule, &self.1, self.2)
+    }
+}
+
+/// A call of [`candidates`] whose rule is yet to be found.
+#[derive(Debug, Clone, Copy)]
+pub struct Candidates<'a>(pub &'a Delaunay, pub &'a Progress);
+
+impl Work for Candidates<'_> {
+    type Result = Edges;
+    fn by<R: Rule>(self, rule: &R) -> Result<Edges> {
+        candidates(self.0, rule, self.1)
+    }
 }
 
 /// The edges of the points' own graph that holds all edges of the whole between them.
@@ -85,13 +99,25 @@ pub fn candidates(delaunay: &Delaunay, rule: &impl Rule, progress: &Progress) ->
     select(delaunay, progress, || (), |(), edge| rule.may_join(delaunay, edge))
 }
 
+/// The neighbors of each of `rows` in the triangulation, as rows.
+#[must_use]
+pub fn stars(delaunay: &Delaunay, rows: &[u32]) -> Vec<Vec<u32>> {
+    let vertex = vertices_of_rows(delaunay);
+    let star = |&row: &u32| {
+        let neighbors = delaunay.star(vertex[row as usize]).neighbors;
+        neighbors.iter().map(|&neighbor| delaunay.rows()[neighbor as usize]).collect()
+    };
+    rows.iter().map(star).collect()
+}
+
 /// A question, and what helps to answer it.
 struct Tile<'a, R> {
     delaunay: &'a Delaunay,
     rule: &'a R,
     question: &'a Question<'a>,
-    coarse: Sectors,
-    fine: Sectors,
+    reach: Reach,
+    /// For each vertex: is it own, and is it fresh?
+    flags: Vec<[bool; 2]>,
 }
 
 /// The answer for some of the vertices.
@@ -99,39 +125,36 @@ struct Tile<'a, R> {
 struct Part {
     edges: Edges,
     open_edges: Vec<(Edge, [Option<Disk>; 2])>,
-    open_vertices: Vec<(u32, Reach)>,
+    open_vertices: Vec<(u32, Partners)>,
 }
 
 /// Which unseen pieces may hold partners of a vertex.
-struct Reach {
+struct Partners {
     farthest: f64,
     pieces: Vec<u32>,
 }
 
 impl<'a, R: Rule> Tile<'a, R> {
     fn new(delaunay: &'a Delaunay, rule: &'a R, question: &'a Question<'a>) -> Self {
-        let [coarse, fine] = [COARSE, FINE].map(Sectors::new);
-        Self { delaunay, rule, question, coarse, fine }
+        let reach = Reach::new(rule.partners(), SECTORS);
+        let flags = |&row: &u32| [question.own[row as usize], question.fresh[row as usize]];
+        let flags = delaunay.rows().iter().map(flags).collect();
+        Self { delaunay, rule, question, reach, flags }
     }
 
-    fn flag(&self, flags: &[bool], vertex: u32) -> bool {
-        flags[self.delaunay.rows()[vertex as usize] as usize]
-    }
-
-    fn part(&self, start: usize) -> Part {
-        let end = (start + GRAIN).min(self.delaunay.points().len());
+    fn part(&self, vertices: Range<usize>) -> Part {
         let (mut part, mut memory) = (Part::default(), R::Memory::default());
-        let Question { own, fresh, .. } = *self.question;
-        for p in start as u32..end as u32 {
-            let (p_own, p_fresh) = (self.flag(own, p), self.flag(fresh, p));
+        for p in vertices.start as u32..vertices.end as u32 {
+            let [p_own, p_fresh] = self.flags[p as usize];
             let wanted = |edge: &Edge| {
-                p_own && self.flag(fresh, edge.q) || p_fresh && self.flag(own, edge.q)
+                let [q_own, q_fresh] = self.flags[edge.q as usize];
+                p_own && q_fresh || q_own && p_fresh
             };
             for edge in self.delaunay.edges_from(p).filter(wanted) {
                 self.decide_edge(edge, &mut memory, &mut part);
             }
-            if p_own && let Some(reach) = self.open(p) {
-                part.open_vertices.push((p, reach));
+            if p_own && let Some(partners) = self.unseen_partners(p) {
+                part.open_vertices.push((p, partners));
             }
         }
         part
@@ -164,24 +187,24 @@ impl<'a, R: Rule> Tile<'a, R> {
     }
 
     /// The unseen pieces that may hold partners of `p`, if any.
-    fn open(&self, p: u32) -> Option<Reach> {
+    fn unseen_partners(&self, p: u32) -> Option<Partners> {
         let (unseen, site) = (self.question.unseen, self.delaunay.point(p));
         let clearance = unseen.clearance(site);
-        let [mut support, mut reach] = [[0.0; FINE]; 2];
-        for sectors in [&self.coarse, &self.fine] {
-            let (support, reach) = (&mut support[..sectors.len()], &mut reach[..sectors.len()]);
-            sectors.support(self.delaunay, p, support);
-            self.rule.reach(sectors, support, reach);
-            if reach.iter().all(|&reach| reach < clearance) {
-                return None;
-            }
+        if are_near(self.rule.partners(), self.delaunay, p, clearance) {
+            return None;
         }
-        let farthest = reach.iter().copied().fold(0.0, f64::max);
+        let [mut support, mut bounds] = [[0.0; SECTORS]; 2];
+        self.reach.support(self.delaunay, p, &mut support);
+        self.reach.bounds(&support, &mut bounds);
+        let farthest = bounds.iter().copied().fold(0.0, f64::max);
+        if farthest < clearance {
+            return None;
+        }
         let disk = Disk::new(site, [0.0; 2], farthest, 0.0);
-        let pieces = unseen.unknown(|bounds| {
-            disk.meets(bounds) && self.fine.may_reach(&reach, &bounds.seen_from(site))
+        let pieces = unseen.unknown(|piece| {
+            disk.meets(piece) && self.reach.may_hold(&bounds, &piece.seen_from(site))
         });
-        (!pieces.is_empty()).then_some(Reach { farthest, pieces })
+        (!pieces.is_empty()).then_some(Partners { farthest, pieces })
     }
 
     fn collect(&self, parts: Vec<Part>) -> Decision {
@@ -194,11 +217,11 @@ impl<'a, R: Rule> Tile<'a, R> {
                 open_edges.push(rows(self.delaunay, edge.p, edge.q));
                 requests.for_disks(self.delaunay.point(edge.p), &disks);
             }
-            for (p, reach) in part.open_vertices {
-                requests.for_partners(self.delaunay, p, &reach);
+            for (p, partners) in part.open_vertices {
+                requests.for_partners(self.delaunay, p, &partners);
                 open.push((
                     self.delaunay.rows()[p as usize],
-                    reach.farthest / self.delaunay.scale(),
+                    partners.farthest / self.delaunay.scale(),
                 ));
             }
         }
@@ -231,13 +254,13 @@ impl<'a> Requests<'a> {
     }
 
     /// Each piece is asked for twice as far as it is away: what is found there mostly hides the rest.
-    fn for_partners(&mut self, delaunay: &Delaunay, p: u32, reach: &Reach) {
+    fn for_partners(&mut self, delaunay: &Delaunay, p: u32, partners: &Partners) {
         let site = delaunay.point(p);
         let neighbors = delaunay.star(p).neighbors.iter();
         let spacing = neighbors.map(|&q| length(sub(delaunay.point(q), site)));
         let spacing = spacing.fold(f64::INFINITY, f64::min);
-        for (distance, piece) in self.nearest(site, reach.pieces.clone()) {
-            let radius = reach.farthest.min(2.0 * distance.max(spacing));
+        for (distance, piece) in self.nearest(site, partners.pieces.clone()) {
+            let radius = partners.farthest.min(2.0 * distance.max(spacing));
             self.add(piece, &Disk::new(site, [0.0; 2], radius, 0.0));
         }
     }

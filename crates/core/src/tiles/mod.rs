@@ -18,10 +18,13 @@ mod rule;
 mod unseen;
 
 pub use chains::{Chain, Joined, Site, chains, join};
-pub use decide::{Decision, Question, candidates, decide};
+pub use decide::{Candidates, Decide, Decision, Question, candidates, decide, stars};
 pub use disk::Disk;
-pub use rule::{BetaSkeleton, CrossingAngle, Crust, OneStepCrust, Rule};
+pub use reach::Partners;
+pub use rule::{BetaSkeleton, CrossingAngle, Crust, OneStepCrust, Rule, Work, with_rule};
 pub use unseen::Unseen;
+
+pub use crate::space::bounds::Bounds;
 
 #[cfg(test)]
 mod tests;

@@ -7,24 +7,47 @@
 use crate::delaunay::Delaunay;
 use crate::point::{Point, cross, dot, length, sub};
 use crate::space::bounds::Bounds;
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, TAU};
 
 /// More than all relative roundings below.
 const SLACK: f64 = 1e-9;
 
-/// Directions that divide the full turn into equal sectors.
-#[derive(Debug)]
-pub struct Sectors {
-    /// The direction at which each sector starts, and the first again.
-    starts: Vec<Point>,
+/// Where a method's partners can be, given the cell of a point.
+#[derive(Debug, Clone, Copy)]
+pub enum Partners {
+    /// A piece of the dual Voronoi edge is seen under this angle. The ends of that piece are in the directions θ and θ + angle, no
+    /// farther than R there. It lies on a line at half the partner's distance; the foot of its perpendicular points to the partner, at
+    /// less than 90° from both.
+    SeenUnder(f64),
+    /// Two disks of radius β d / 2 are centered in the cell, at the angle arccos 1 / β on either side of the partner's direction.
+    ByDisks(f64),
 }
 
-impl Sectors {
-    /// `count` sectors.
-    pub(super) fn new(count: usize) -> Self {
+/// Bounds on the distance of partners, by sectors of direction.
+#[derive(Debug)]
+pub struct Reach {
+    partners: Partners,
+    /// The direction at which each sector starts, and the first again.
+    starts: Vec<Point>,
+    /// The sectors between which the direction lies that is turned by the angle of the partners.
+    turned: [usize; 2],
+    sin: f64,
+    cos: f64,
+}
+
+impl Reach {
+    /// By `count` sectors.
+    pub(super) fn new(partners: Partners, count: usize) -> Self {
         let width = TAU / count as f64;
         let direction = |k: usize| [(k as f64 * width).cos(), (k as f64 * width).sin()];
-        Self { starts: (0..=count).map(|k| direction(k % count)).collect() }
+        let starts = (0..=count).map(|k| direction(k % count)).collect();
+        let angle = match partners {
+            Partners::SeenUnder(angle) => angle,
+            Partners::ByDisks(beta) => (1.0 / beta).acos(),
+        };
+        let turn = rounded(angle / width);
+        let turned = [turn.floor() as usize, turn.ceil() as usize];
+        Self { partners, starts, turned, sin: angle.sin(), cos: angle.cos() }
     }
 
     /// The number of sectors.
@@ -33,24 +56,65 @@ impl Sectors {
     }
 
     /// For each sector a lower bound on 1 / R of the cell of `p`: 0 where the cell may be unbounded.
+    #[inline]
     pub(super) fn support(&self, delaunay: &Delaunay, p: u32, support: &mut [f64]) {
         support.fill(0.0);
         let site = delaunay.point(p);
         for &neighbor in delaunay.star(p).neighbors {
-            let g = sub(delaunay.point(neighbor), site);
-            let far = length(g);
-            let [x, y] = g.map(|x| x / far * (2.0 * (1.0 - SLACK) / far));
+            let [x, y] = inverse(sub(delaunay.point(neighbor), site));
             let mut before = x;
             for (least, end) in support.iter_mut().zip(&self.starts[1..]) {
                 let here = x * end[0] + y * end[1];
-                *least = least.max(before.min(here));
+                *least = larger(*least, smaller(before, here));
                 before = here;
             }
         }
     }
 
+    /// The smaller support of the two sectors between which sector `s` lies when it is turned.
+    fn turned(&self, support: &[f64], s: usize, backward: bool) -> f64 {
+        let count = self.len();
+        let at = |turn: usize| support[if backward { s + count - turn } else { s + turn } % count];
+        at(self.turned[0]).min(at(self.turned[1]))
+    }
+
+    /// The bound that sector `s` gives: on partners there for disks, else on those up to 90° around the piece that starts there.
+    #[inline]
+    fn bound(&self, support: &[f64], s: usize) -> f64 {
+        match self.partners {
+            Partners::SeenUnder(_) => {
+                2.0 * self.farthest_line(support[s], self.turned(support, s, false))
+            }
+            Partners::ByDisks(beta) => {
+                let [left, right] = [false, true].map(|side| self.turned(support, s, side));
+                2.0 * (1.0 + SLACK) / (beta * left.max(right))
+            }
+        }
+    }
+
+    /// The bound for each sector.
+    pub(super) fn bounds(&self, support: &[f64], bounds: &mut [f64]) {
+        bounds.fill(0.0);
+        let (count, width) = (self.len(), TAU / self.len() as f64);
+        // Counted from a full turn ahead.
+        let (first, end) = match self.partners {
+            Partners::SeenUnder(angle) => {
+                let first = rounded((TAU + angle - FRAC_PI_2) / width).floor();
+                (first as usize, rounded((TAU + FRAC_PI_2) / width + 1.0).ceil() as usize)
+            }
+            Partners::ByDisks(_) => (count, count + 1),
+        };
+        for s in 0..count {
+            let bound = self.bound(support, s);
+            for k in first..end {
+                let sector = &mut bounds[(s + k) % count];
+                *sector = larger(*sector, bound);
+            }
+        }
+    }
+
     /// May a point in `bounds`, seen from p, be no farther than the bound of its sector?
-    pub(super) fn may_reach(&self, reach: &[f64], bounds: &Bounds) -> bool {
+    pub(super) fn may_hold(&self, reach: &[f64], bounds: &Bounds) -> bool {
         let distance = bounds.square_to([0.0; 2]).sqrt() * (1.0 - SLACK);
         let corners = bounds.corners();
         let size = SLACK * corners.iter().map(|c| c[0].abs() + c[1].abs()).fold(0.0, f64::max);
@@ -60,54 +124,67 @@ impl Sectors {
         (0..self.len()).any(|k| reach[k] >= distance && within(k))
     }
 
-    /// Bounds on partners whose dual Voronoi edge is seen under at least `angle`.
+    /// The greatest distance of a line through a point at most 1 / `a` away and one at most 1 / `b` away, with the angle between.
     ///
-    /// The ends of a piece seen under exactly `angle` are in the directions θ and θ + `angle`, no farther than R there. The piece
-    /// lies on a line at half the partner's distance; the foot of its perpendicular points to the partner, at less than 90° from both.
-    pub(super) fn reach_by_angle(&self, support: &[f64], angle: f64, reach: &mut [f64]) {
-        reach.fill(0.0);
-        let (count, width) = (self.len(), TAU / self.len() as f64);
-        let turn = angle / width;
-        let (near, far) = (rounded(turn).floor() as usize, rounded(turn).ceil() as usize);
-        let first = rounded((angle - FRAC_PI_2) / width).floor() as isize;
-        let last = rounded(1.0 + FRAC_PI_2 / width).ceil() as isize;
-        for s in 0..count {
-            let other = support[(s + near) % count].min(support[(s + far) % count]);
-            let bound = 2.0 * farthest_line(support[s], other, angle);
-            for k in s as isize + first..s as isize + last {
-                let sector = k.rem_euclid(count as isize) as usize;
-                reach[sector] = reach[sector].max(bound);
-            }
+    /// Up to 90° the farthest line may be perpendicular to the shorter of the two.
+    #[inline]
+    fn farthest_line(&self, a: f64, b: f64) -> f64 {
+        let (small, large) = (a.min(b), a.max(b));
+        if large * self.cos > small {
+            return (1.0 + SLACK) / large;
         }
+        let square = dot([a, b], [a, b]) - 2.0 * a * b * self.cos;
+        (1.0 + SLACK) * self.sin / square.max(0.0).sqrt()
     }
+}
 
-    /// Bounds on partners whose two disks of radius β d / 2 are centered in the cell: at the angle ω = arccos 1 / β on either side.
-    pub(super) fn reach_by_disks(&self, support: &[f64], beta: f64, reach: &mut [f64]) {
-        let (count, width) = (self.len(), TAU / self.len() as f64);
-        let turn = (1.0 / beta).acos() / width;
-        let (near, far) = (rounded(turn).floor() as usize, rounded(turn).ceil() as usize);
-        for (s, reach) in reach.iter_mut().enumerate() {
-            let left = support[(s + near) % count].min(support[(s + far) % count]);
-            let right = support[(s + count - near) % count].min(support[(s + count - far) % count]);
-            *reach = 2.0 * (1.0 + SLACK) / (beta * left.max(right));
+/// Are all partners of `p` nearer than `distance`, as a first look tells that is enough far from what is unseen?
+///
+/// For pieces seen under 90°: 1 / R² in a direction and in the one turned by 90° sum to at least 4 / d². With eight sectors all
+/// products with directions are sums of two coordinates. False if in doubt, and for other partners.
+#[inline]
+pub(super) fn are_near(partners: Partners, delaunay: &Delaunay, p: u32, distance: f64) -> bool {
+    if !matches!(partners, Partners::SeenUnder(FRAC_PI_2)) {
+        return false;
+    }
+    let (site, mut support) = (delaunay.point(p), [0.0f64; 8]);
+    for &neighbor in delaunay.star(p).neighbors {
+        let [x, y] = inverse(sub(delaunay.point(neighbor), site));
+        let (up, down) = (FRAC_1_SQRT_2 * (y + x), FRAC_1_SQRT_2 * (y - x));
+        let ends = [x, up, y, down, -x, -up, -y, -down, x];
+        for k in 0..8 {
+            support[k] = larger(support[k], smaller(ends[k], ends[k + 1]));
         }
     }
+    let square = |k: usize| support[k % 8] * support[k % 8];
+    let least = (0..8).map(|k| square(k) + square(k + 2)).fold(f64::INFINITY, f64::min);
+    least * distance * distance > 4.0
+}
+
+/// The larger of two numbers, at less cost than where one may be none.
+#[inline]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+#[inline]
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// 2 g / |g|², rounded down in length: its product with a direction is at most 1 / R there.
+#[inline]
+fn inverse(g: Point) -> Point {
+    const TWICE: f64 = 2.0 * (1.0 - SLACK);
+    let square = dot(g, g);
+    if square.is_normal() {
+        return g.map(|x| x * (TWICE / square));
+    }
+    let far = length(g);
+    g.map(|x| x / far * (TWICE / far))
 }
 
 /// A number that is whole but for rounding, made whole.
 fn rounded(x: f64) -> f64 {
     if (x - x.round()).abs() < SLACK { x.round() } else { x }
-}
-
-/// The greatest distance of a line through a point at most 1 / `a` away and one at most 1 / `b` away, `angle` apart.
-///
-/// Up to 90° the farthest line may be perpendicular to the shorter of the two.
-fn farthest_line(a: f64, b: f64, angle: f64) -> f64 {
-    let (sin, cos) = angle.sin_cos();
-    let (small, large) = (a.min(b), a.max(b));
-    if large * cos > small {
-        return (1.0 + SLACK) / large;
-    }
-    let square = dot([a, b], [a, b]) - 2.0 * a * b * cos;
-    (1.0 + SLACK) * sin / square.max(0.0).sqrt()
 }

@@ -1,7 +1,7 @@
 //! What each method that tiles can decide asks of the points: what a verdict rests on, and how far a partner can be.
 
 use super::disk::Disk;
-use super::reach::Sectors;
+use super::reach::Partners;
 use crate::delaunay::{Delaunay, Edge};
 use crate::error::{Error, Result};
 use crate::exact::angle_bound::AngleBound;
@@ -35,8 +35,37 @@ pub trait Rule: Sync {
     /// Is the edge in the graph of these points that holds the method's edges between them, whatever other points there are?
     fn may_join(&self, delaunay: &Delaunay, edge: Edge) -> bool;
 
-    /// For each sector an upper bound on the distance to partners there, from lower bounds on 1 / R.
-    fn reach(&self, sectors: &Sectors, support: &[f64], reach: &mut [f64]);
+    /// Where partners can be.
+    fn partners(&self) -> Partners;
+}
+
+/// The rule of a method, found by the name and the parameters that `methods::select` takes, and what is done with it.
+///
+/// # Errors
+/// That tiles cannot decide this method, or an error of the work.
+pub fn with_rule<W: Work>(name: &str, parameters: &[f64], work: W) -> Result<W::Result> {
+    match (name, parameters) {
+        ("crust", []) => work.by(&Crust),
+        ("one-step-crust", []) => work.by(&OneStepCrust),
+        ("beta-skeleton", &[beta, 0.0]) => work.by(&BetaSkeleton::new(beta)?),
+        ("crossing-angle-graph", &[cotangent]) => work.by(&CrossingAngle::new(cotangent)?),
+        _ => Err(Error::Argument {
+            message: format!(
+                "{name} cannot be decided tile by tile, for its edges can rest on points anywhere: use crust, one-step-crust, crossing-angle-graph, or beta-skeleton of circles with beta above 1"
+            ),
+        }),
+    }
+}
+
+/// What is done with a rule, whichever it is.
+pub trait Work {
+    /// What it gives.
+    type Result;
+    /// Do it.
+    ///
+    /// # Errors
+    /// Those of the work.
+    fn by<R: Rule>(self, rule: &R) -> Result<Self::Result>;
 }
 
 /// The crust.
@@ -68,8 +97,8 @@ impl Rule for Crust {
         is_in_one_step_crust(delaunay, edge)
     }
 
-    fn reach(&self, sectors: &Sectors, support: &[f64], reach: &mut [f64]) {
-        sectors.reach_by_angle(support, FRAC_PI_2, reach);
+    fn partners(&self) -> Partners {
+        Partners::SeenUnder(FRAC_PI_2)
     }
 }
 
@@ -100,8 +129,8 @@ impl Rule for OneStepCrust {
         is_in_one_step_crust(delaunay, edge)
     }
 
-    fn reach(&self, sectors: &Sectors, support: &[f64], reach: &mut [f64]) {
-        sectors.reach_by_angle(support, FRAC_PI_2, reach);
+    fn partners(&self) -> Partners {
+        Partners::SeenUnder(FRAC_PI_2)
     }
 }
 
@@ -134,8 +163,8 @@ impl Rule for CrossingAngle {
         self.crossing.holds(delaunay, edge)
     }
 
-    fn reach(&self, sectors: &Sectors, support: &[f64], reach: &mut [f64]) {
-        sectors.reach_by_angle(support, self.angle, reach);
+    fn partners(&self) -> Partners {
+        Partners::SeenUnder(self.angle)
     }
 }
 
@@ -201,7 +230,7 @@ impl Rule for BetaSkeleton {
         has_angles(delaunay, edge, &self.bound, &self.bound)
     }
 
-    fn reach(&self, sectors: &Sectors, support: &[f64], reach: &mut [f64]) {
-        sectors.reach_by_disks(support, self.beta, reach);
+    fn partners(&self) -> Partners {
+        Partners::ByDisks(self.beta)
     }
 }

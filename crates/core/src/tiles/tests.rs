@@ -1,8 +1,8 @@
 //! Small sets of integers, where every tie lives, in random tiles: no final decision contradicts the whole, and none is missing.
 
 use super::{
-    BetaSkeleton, CrossingAngle, Crust, OneStepCrust, Question, Rule, Site, Unseen, candidates,
-    chains, decide, join,
+    BetaSkeleton, CrossingAngle, Crust, Joined, OneStepCrust, Question, Rule, Site, Unseen,
+    candidates, chains, decide, join,
 };
 use crate::delaunay::Delaunay;
 use crate::edges::Edges;
@@ -369,6 +369,32 @@ fn decisions_of_tiles_are_those_of_the_whole() {
     }
 }
 
+/// Each point a group of its own, and a random part of them seen: where a verdict can change, it must say so.
+#[test]
+fn a_verdict_is_final_only_if_no_unseen_point_can_change_it() {
+    let mut random = Random(17);
+    let progress = Progress::default();
+    let mut changed = 0;
+    for _ in 0..20_000 {
+        let points = points(&mut random);
+        let count = points.len();
+        let groups = (0..count as u32).map(|row| (0, vec![row])).collect();
+        let world = World { points, tile: vec![0; count], tiles: 1, groups };
+        let whole = Delaunay::new(&world.points, &progress).unwrap();
+        let whole = methods::crust(&whole, &progress).unwrap().into_iter().collect();
+        let share = 2 + random.below(8);
+        let seen: Vec<u32> = (0..count as u32).filter(|_| random.below(share) > 0).collect();
+        let mut sight = Sight::new(&world, |_| Some(false));
+        sight.pieces.retain(|piece| !seen.contains(&(piece.group as u32)));
+        let mut run =
+            Run { world: &world, rule: &Crust, whole: &whole, found: BTreeSet::new(), most: 9 };
+        let all = seen.iter().copied().collect();
+        let (open, _) = run.decide(&seen, &all, &all, &BTreeSet::new(), (&sight, Bounds::EMPTY));
+        changed += open.edges.intersection(&whole).count();
+    }
+    assert!(changed > 1000);
+}
+
 /// Curves across tiles as `trace` gives them: rows, and whether they are rings.
 fn traced(world: &World, edges: &Edges) -> Vec<(Vec<u32>, bool)> {
     let progress = Progress::default();
@@ -397,26 +423,29 @@ fn traced(world: &World, edges: &Edges) -> Vec<(Vec<u32>, bool)> {
     let degrees: Vec<(i64, u32)> = degrees.into_iter().collect();
     let (whole, open) = join(&all, &degrees);
     assert!(open.is_empty());
-    for joined in whole {
-        let mut rows: Vec<u32> = Vec::new();
-        for (k, backward) in joined.members {
-            let mut run = runs[k as usize].clone();
-            if backward {
-                run.reverse();
-            }
-            rows.pop();
-            rows.extend(run);
-        }
-        assert_eq!(rows.len() as i64, joined.chain.edges + 1);
-        if joined.closed {
-            rows.pop();
-            let start = (0..rows.len()).min_by_key(|&k| rows[k]).unwrap();
-            rows.rotate_left(start);
-        }
-        found.push((rows, joined.closed));
-    }
+    found.extend(whole.iter().map(|joined| materialized(joined, &runs)));
     found.sort_unstable();
     found
+}
+
+/// The rows of a curve made of runs.
+fn materialized(joined: &Joined, runs: &[Vec<u32>]) -> (Vec<u32>, bool) {
+    let mut rows: Vec<u32> = Vec::new();
+    for &(k, backward) in &joined.members {
+        let mut run = runs[k as usize].clone();
+        if backward {
+            run.reverse();
+        }
+        rows.pop();
+        rows.extend(run);
+    }
+    assert_eq!(rows.len() as i64, joined.chain.edges + 1);
+    if joined.closed {
+        rows.pop();
+        let start = (0..rows.len()).min_by_key(|&k| rows[k]).unwrap();
+        rows.rotate_left(start);
+    }
+    (rows, joined.closed)
 }
 
 #[test]
