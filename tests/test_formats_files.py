@@ -75,6 +75,7 @@ def test_unknown_formats_are_named(tmp_path):
 
 @pytest.mark.parametrize("columns", ["xy", ["x"], ["x", "y", "z", "w"]])
 def test_the_number_of_columns_is_checked(tmp_path, columns):
+    (tmp_path / "p.csv").write_text("1,2,3\n")
     with pytest.raises(InputError, match="columns"):
         read(tmp_path / "p.csv", columns=columns)
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from crustline.errors import InputError
+from crustline.errors import FormatError, InputError
 from crustline.formats.format import Format, Option
 from crustline.formats.geojson import GEOJSON
 from crustline.formats.npy import NPY, NPZ
+from crustline.formats.signatures import foreign
 from crustline.formats.source import Source
 from crustline.formats.svg import SVG
 from crustline.formats.target import Target
@@ -42,10 +43,13 @@ def format_of_source(source: Source, name: str | None, task: str = "read") -> Fo
     if name is not None:
         return _named(name, task)
     claimed = _claiming(source.suffix, task)
-    if len(claimed) == 1:
-        return claimed[0]
     seen = [each for each in claimed or able(task) if each.sniff and each.sniff(source.head)]
-    return seen[0] if seen else claimed[0] if claimed else XYZ
+    if seen:
+        return seen[0]
+    what = foreign(source.head)
+    if what is not None:
+        raise FormatError(f"{source.name} is {what}")
+    return claimed[0] if claimed else XYZ
 
 
 def format_of_target(target: Target, name: str | None, task: str) -> Format:

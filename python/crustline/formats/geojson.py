@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import chain, repeat
@@ -35,6 +36,7 @@ _DEPTHS = {
 }
 _LINES = ("LineString", "MultiLineString", "Polygon", "MultiPolygon")
 _KINDS = {"polygon": "Polygon", "line": "LineString", "points": "MultiPoint"}
+_SURROGATE = re.compile("[\ud800-\udfff]")
 _RESERVED = ("curve", "closed", "rows", "id")
 
 
@@ -287,7 +289,10 @@ def _as_json(values: npt.NDArray[Any]) -> list[Any]:
 
 
 def _dump(value: Any) -> str:
-    return json.dumps(value, allow_nan=False, ensure_ascii=False, separators=(",", ":"))
+    text = json.dumps(value, allow_nan=False, ensure_ascii=False, separators=(",", ":"))
+    if _SURROGATE.search(text):  # which UTF-8 does not hold, but an escape does
+        text = json.dumps(value, allow_nan=False, separators=(",", ":"))
+    return text
 
 
 def _is_geojson(head: bytes) -> bool:

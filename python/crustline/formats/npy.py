@@ -3,51 +3,93 @@
 from __future__ import annotations
 
 import io
+import math
+import zipfile
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from crustline.curves import Curves, trace
 from crustline.errors import FormatError, InputError
 from crustline.formats.attributes import attributes_of_points
 from crustline.formats.format import Format
 from crustline.formats.names import find_coordinates, find_pair, quote_all
 from crustline.formats.options import COLUMNS
+from crustline.formats.packed import refuse_bomb
 from crustline.formats.source import Source
 from crustline.formats.target import Target
 from crustline.points import Points
 
-if TYPE_CHECKING:
-    from crustline.curves import Curves
-
 Array = npt.NDArray[Any]
 _PREFIX = "columns/"
+_HEADERS = {
+    (1, 0): np.lib.format.read_array_header_1_0,
+    (2, 0): np.lib.format.read_array_header_2_0,
+}
 _RESULT = ("indices", "offsets", "closed", "isolated")
 
 
 def read_npy(source: Source, *, columns: Sequence[str | int] | None = None) -> Points:
     """Return the points of one array of shape (n, 2), or (n, 3) with heights."""
-    return _from_table(_load(source.content(), source.name), source.name, columns)
+    content = source.content()
+    if content.startswith(b"PK"):
+        raise FormatError(f"{source.name} is an NPZ archive, not an NPY file: choose format npz")
+    _check_magic(content, b"\x93NUMPY", source)
+    array = _array(content, source, "")
+    if array.ndim != 2 or array.shape[1] < 2 or (columns is None and array.shape[1] > 3):
+        raise FormatError(
+            f"{source.name} has the shape {array.shape}, not (n, 2) or (n, 3): "
+            "choose columns by position"
+        )
+    names = [*"xyz", *(f"column{k}" for k in range(3, array.shape[1]))][: array.shape[1]]
+    return _from_arrays(dict(zip(names, array.T, strict=True)), source.name, columns)
 
 
 def read_npz(source: Source, *, columns: Sequence[str | int] | None = None) -> Points:
     """Return the points of an archive: array points, or x and y, with z, crs and other columns."""
-    archive = _load(source.content(), source.name)
-    if isinstance(archive, np.ndarray):
-        raise FormatError(
-            f"{source.name} is an NPY file, not an NPZ archive: choose the format npy"
-        )
-    arrays = {name: _member(archive, name, source.name) for name in archive.files}
-    crs = arrays.pop("crs", None)
-    names = arrays.pop("names", None)
+    return _points_of(_members(source), source, columns)
+
+
+def read_npz_curves(source: Source) -> Curves:
+    """Return the curves that an archive of ours holds."""
+    arrays = _members(source)
+    if not {"points", *_RESULT} <= arrays.keys():
+        raise source.error(f"it holds no curves, only {quote_all(list(arrays))}: read its points")
+    edges = _edges(arrays["indices"], arrays["offsets"], arrays["closed"], source)
+    try:
+        return trace(_points_of(arrays, source, None), edges)
+    except InputError as error:
+        raise FormatError(f"{source.name}, {error}") from None
+
+
+def _points_of(
+    arrays: dict[str, Array], source: Source, columns: Sequence[str | int] | None
+) -> Points:
+    crs, names = _as_word(arrays.get("crs")), arrays.get("names")
+    arrays = {name: array for name, array in arrays.items() if name not in ("crs", "names")}
     if "points" in arrays and columns is None:
         if set(_RESULT) <= arrays.keys():  # a result of ours: a ring of n points is no column
             arrays = {name: array for name, array in arrays.items() if name not in _RESULT}
         points = _with_columns(arrays, names, source.name)
     else:
         points = _from_arrays(arrays, source.name, columns)
-    return points.replace(crs=None if crs is None else str(crs))
+    return points.replace(crs=crs)
+
+
+def _edges(indices: Array, offsets: Array, closed: Array, source: Source) -> Array:
+    """Return the edges along ragged curves."""
+    fits = indices.dtype.kind == offsets.dtype.kind == "i" and closed.dtype.kind == "b"
+    fits = fits and indices.ndim == offsets.ndim == closed.ndim == 1
+    if not fits or len(offsets) != len(closed) + 1:
+        raise source.error("its indices, offsets and closed do not fit together: write it again")
+    parts = np.split(indices, offsets[1:-1]) if len(closed) else []
+    steps = [
+        np.stack([part, np.roll(part, -1)], axis=1)[: len(part) - (not ring)]
+        for part, ring in zip(parts, closed.tolist(), strict=True)
+    ]
+    return np.concatenate([np.empty((0, 2), np.int64), *steps])
 
 
 def write_npz_curves(curves: Curves, target: Target) -> None:
@@ -91,40 +133,52 @@ def _archive(arrays: dict[str, Any]) -> bytes:
     return stream.getvalue()
 
 
-def _load(content: bytes, source: str) -> Any:
-    if not content.startswith((b"\x93NUMPY", b"PK")):
-        raise FormatError(f"{source} is no NPY or NPZ file: choose its format")
+def _check_magic(content: bytes, magic: bytes, source: Source) -> None:
+    if not content.startswith(magic):
+        raise FormatError(f"{source.name} is no NPY or NPZ file: choose its format")
+
+
+def _members(source: Source) -> dict[str, Array]:
+    content = source.content()
+    if content.startswith(b"\x93NUMPY"):
+        raise FormatError(f"{source.name} is an NPY file, not an NPZ archive: choose format npy")
+    _check_magic(content, b"PK", source)
+    with source.library("zipfile"):
+        archive = zipfile.ZipFile(io.BytesIO(content))
+        refuse_bomb(sum(each.file_size for each in archive.infolist()), len(content), source.name)
+        members = {
+            each.filename.removesuffix(".npy"): archive.read(each) for each in archive.infolist()
+        }
+    return {name: _array(member, source, name) for name, member in members.items()}
+
+
+def _array(content: bytes, source: Source, name: str) -> Array:
+    """Return the array of an NPY file; its header must say how many bytes follow, no more."""
+    place = f"array {name!r:.60}" if name else ""
+    stream = io.BytesIO(content)
     try:
-        return np.load(io.BytesIO(content), allow_pickle=False)
-    except Exception as error:  # a broken header or archive raises half a dozen kinds
-        raise FormatError(f"{source} is no NumPy file of numbers: {_first_line(error)}") from None
-
-
-def _member(archive: Any, name: str, source: str) -> Array:
-    try:
-        return np.asarray(archive[name])
-    except Exception as error:
-        raise FormatError(
-            f"{source}, array {name!r} cannot be read: {_first_line(error)}"
-        ) from None
-
-
-def _first_line(error: Exception) -> str:
-    if "allow_pickle" in str(error):
-        return "it holds Python objects, which are not read: save numbers or text"
-    return f"{(str(error) or type(error).__name__).splitlines()[0]}: save it again"
-
-
-def _from_table(array: Any, source: str, columns: Sequence[str | int] | None) -> Points:
-    if not isinstance(array, np.ndarray):
-        raise FormatError(f"{source} is an NPZ archive, not an NPY file: choose the format npz")
-    if array.ndim != 2 or array.shape[1] < 2 or (columns is None and array.shape[1] > 3):
-        raise FormatError(
-            f"{source} has the shape {array.shape}, not (n, 2) or (n, 3): "
-            "choose columns by position"
+        header = _HEADERS[np.lib.format.read_magic(stream)]
+        shape, columns_first, dtype = header(stream)
+    except Exception as error:  # a broken header raises half a dozen kinds
+        raise source.error(f"no NumPy file of numbers ({str(error)[:80]})", place) from None
+    if dtype.hasobject:
+        advice = "it holds Python objects, which are not read: save numbers or text"
+        raise source.error(advice, place)
+    count, rest = math.prod(shape), len(content) - stream.tell()
+    if dtype.names is not None or count * dtype.itemsize != rest or (count and not dtype.itemsize):
+        raise source.error(
+            f"the header says {dtype} of shape {shape}, which the {rest} bytes after it are not: "
+            "save it again",
+            place,
         )
-    names = [*"xyz", *(f"column{k}" for k in range(3, array.shape[1]))][: array.shape[1]]
-    return _from_arrays({name: array[:, k] for k, name in enumerate(names)}, source, columns)
+    array = np.frombuffer(content, dtype, count, stream.tell()) if count else np.empty(0, dtype)
+    return array.reshape(shape, order="F" if columns_first else "C")
+
+
+def _as_word(array: Array | None) -> str | None:
+    """Return the text of an array that is one word."""
+    one = array is not None and array.ndim == 0 and array.dtype.kind == "U"
+    return str(array) if one else None
 
 
 def _from_arrays(
@@ -174,6 +228,12 @@ def _points(
         raise FormatError(f"{source}, {error}") from None
 
 
+def _is_npz(head: bytes) -> bool:
+    """Return whether it is an archive whose first file is called NAME.npy."""
+    name = head[30 : 30 + int.from_bytes(head[26:28], "little")]
+    return head.startswith(b"PK\x03\x04") and name.endswith(b".npy")
+
+
 NPY = Format(
     name="npy",
     title="NPY",
@@ -187,8 +247,9 @@ NPZ = Format(
     name="npz",
     title="NPZ",
     suffixes=(".npz",),
-    sniff=lambda head: head.startswith(b"PK\x03\x04"),
+    sniff=_is_npz,
     read=read_npz,
+    read_curves=read_npz_curves,
     write_points=write_npz,
     write_curves=write_npz_curves,
     options=(COLUMNS,),

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from crustline.formats.catalog import format_of_source
+from crustline.formats.catalog import able, format_of_source, suffixes_for
 from crustline.formats.crs import normalize_crs
 from crustline.formats.format import Layer
+from crustline.formats.packed import member, unpacked
+from crustline.formats.signatures import known_archive
 from crustline.formats.source import Source
 from crustline.points import Points
 
@@ -71,7 +73,7 @@ def read(
     >>> points.xy.tolist(), points.columns["name"].tolist()
     ([[8.5, 47.4], [7.4, 46.9]], ['Zurich', 'Bern'])
     """
-    source = _as_source(path)
+    source = _opened(path)
     chosen = format_of_source(source, format)
     settings = chosen.settings("read", options)
     chosen.require()
@@ -101,7 +103,7 @@ def read_curves(
     """
     from dataclasses import replace
 
-    source = _as_source(path)
+    source = _opened(path)
     chosen = format_of_source(source, format, "read_curves")
     settings = chosen.settings("read_curves", options)
     chosen.require()
@@ -137,7 +139,7 @@ def stream(
     FormatError, InputError, MissingExtraError
         As for `read`, where the fault is met.
     """
-    source = _as_source(path)
+    source = _opened(path)
     chosen = format_of_source(source, format)
     task = "stream" if chosen.stream else "read"
     settings = chosen.settings(task, options)
@@ -151,7 +153,7 @@ def stream(
 
 def layers(path: Any, *, format: str | None = None) -> list[Layer]:
     """Return the layers of a file; none if its format knows no layers."""
-    source = _as_source(path)
+    source = _opened(path)
     chosen = format_of_source(source, format)
     if chosen.layers is None:
         return []
@@ -159,8 +161,15 @@ def layers(path: Any, *, format: str | None = None) -> list[Layer]:
     return chosen.layers(source)
 
 
-def _as_source(path: Any) -> Source:
-    return path if isinstance(path, Source) else Source(path)
+def _opened(path: Any) -> Source:
+    """Return the source of a path, unpacked."""
+    source = unpacked(path if isinstance(path, Source) else Source(path))
+    head = source.head
+    if not head.startswith(b"PK\x03\x04") or known_archive(head):
+        return source
+    if any(each.sniff and each.sniff(head) for each in able("read")):
+        return source
+    return member(source, {*suffixes_for("read"), *suffixes_for("read_curves")})
 
 
 def _with_crs(points: Points, crs: str | None) -> Points:

@@ -8,14 +8,14 @@ import stat
 import sys
 import tempfile
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from crustline.errors import CrustlineError, FormatError, FormatWarning
+from crustline.errors import CrustlineError, FormatError, FormatWarning, InputError
 
 __all__ = ["HEAD", "Source"]
 
@@ -43,7 +43,11 @@ class Source:
     notes: dict[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self.name = self.name or _name_of(self.given)
+        if isinstance(self.given, bytearray | memoryview):
+            self.given = bytes(self.given)
+        if not isinstance(self.given, os.PathLike) and not hasattr(self.given, "read"):
+            _check_iterable(self.given)
+        self.name = _shown(self.name or _name_of(self.given))
         refuse_null(self.given)
 
     @property
@@ -64,10 +68,8 @@ class Source:
     @cached_property
     def head(self) -> bytes:
         """The first bytes, at most `HEAD`; they are not taken away."""
-        if self._is_stream:
-            return self._stream.peek(HEAD)[:HEAD]
         with self.open() as file:
-            return file.read(HEAD)
+            return self._stream.peek(HEAD)[:HEAD] if self._is_stream else file.read(HEAD)
 
     @contextmanager
     def open(self) -> Iterator[BinaryIO]:
@@ -110,6 +112,8 @@ class Source:
             advice = "say in which encoding the text is (--encoding latin-1, or another one)"
             fault = f"byte 0x{content[error.start]:02x} is not {error.encoding.upper()} text"
             raise self.error(f"{fault}: {advice}", f"line {line}") from None
+        if "\0" in text:
+            raise self.error("it holds null characters, and is no text: choose its format")
         self.note("encoding", found)
         return text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
 
@@ -199,7 +203,14 @@ def _chunks_of(given: Any) -> Iterator[bytes]:
         given = sys.stdin.buffer
         _refuse_device(given)
     for chunk in _reads(given) if hasattr(given, "read") else given:
+        if not isinstance(chunk, bytes | bytearray | memoryview | str):
+            raise InputError(f"a piece to read is {chunk!r:.60}, not bytes: give a path or bytes")
         yield chunk.encode() if isinstance(chunk, str) else bytes(chunk)
+
+
+def _check_iterable(given: Any) -> None:
+    if isinstance(given, Mapping) or not isinstance(given, Iterable):
+        raise InputError(f"{given!r:.60} cannot be read: give a path, bytes, or a file-like object")
 
 
 def _reads(file: Any) -> Iterator[Any]:
@@ -238,6 +249,11 @@ def likely_encoding(content: bytes) -> str:
     if len(head) > 1 and not any(head[::2]) and all(head[1::2]):
         return "utf-16-be"
     return "utf-8"
+
+
+def _shown(name: str) -> str:
+    """Return a name that fits into a sentence; its end tells more than its middle."""
+    return name if len(name) <= 160 else f"{name[:60]}…{name[-90:]}"
 
 
 def refuse_null(given: object) -> None:

@@ -106,6 +106,12 @@ class Target:
             raise
         except OSError as error:
             raise FormatError(f"{self.name} cannot be written: {reason_of(error)}") from None
+        except UnicodeEncodeError as error:
+            word = error.object[max(0, error.start - 20) : error.end]
+            raise FormatError(
+                f"{self.name} cannot be written: {word!r} ends with a lone surrogate, which UTF-8 "
+                "does not hold: correct the text"
+            ) from None
 
 
 def _as_bytes(piece: bytes | str) -> bytes:

@@ -1,0 +1,76 @@
+"""Files that are no points, or that no reader knows: what they are, and what to do."""
+
+from __future__ import annotations
+
+import re
+
+__all__ = ["foreign", "known_archive"]
+
+_CONVERT = "save its points as CSV or GeoJSON"
+_PICTURE = "a picture: trace its outlines to points first"
+_SIGNATURES = (
+    (b"\x89PNG", f"a PNG file, {_PICTURE}"),
+    (b"\xff\xd8\xff", f"a JPEG file, {_PICTURE}"),
+    (b"GIF8", f"a GIF file, {_PICTURE}"),
+    (b"II*\x00", f"a TIFF file, {_PICTURE}"),
+    (b"MM\x00*", f"a TIFF file, {_PICTURE}"),
+    (b"%PDF", "a PDF file: save its drawing as SVG or DXF"),
+    (b"%!PS", "a PostScript file: save its drawing as SVG or DXF"),
+    (b"\x00\x00\x27\x0a", f"a Shapefile: {_CONVERT}"),
+    (b"SQLite format 3\x00", f"an SQLite file, such as a GeoPackage: {_CONVERT}"),
+    (b"fgb\x03", f"a FlatGeobuf file: {_CONVERT}"),
+    (b"LASF", f"a LAS or LAZ file: {_CONVERT}"),
+    (b"PAR1", f"a Parquet file: {_CONVERT}"),
+    (b"ARROW1", f"an Arrow or Feather file: {_CONVERT}"),
+    (b"\x89HDF", f"an HDF5 file: {_CONVERT}"),
+    (b"CDF", f"a NetCDF file: {_CONVERT}"),
+    (b"AC10", "a DWG file: save it as DXF"),
+    (b"AutoCAD Binary DXF", "a binary DXF file: save it as text DXF"),
+    (b"\xd0\xcf\x11\xe0", "an old Office file: save the sheet as CSV"),
+    (b"MATLAB 5.0", f"a MATLAB file: {_CONVERT}"),
+    (b"\x28\xb5\x2f\xfd", "packed by zstd: unpack it first"),
+    (b"7z\xbc\xaf\x27\x1c", "a 7z archive: unpack it first"),
+    (b"Rar!", "a RAR archive: unpack it first"),
+    (b"\x80\x04\x95", f"a Python pickle, which is not read: {_CONVERT}"),
+    (b"solid ", "an STL file of a surface: crustline reads points of the plane"),
+    (b"ply\n", f"a PLY file: {_CONVERT}"),
+    (b"ply\r", f"a PLY file: {_CONVERT}"),
+)
+_ARCHIVES = (
+    (b"xl/", "an Excel file: save the sheet as CSV"),
+    (b"[Content_Types].xml", "an Office file: save the sheet as CSV"),
+    (b"mimetype", "an OpenDocument file: save the sheet as CSV"),
+    (b"doc.kml", "a KMZ file: save it as GeoJSON"),
+)
+_ROOTS = {
+    "kml": f"a KML file: {_CONVERT}",
+    "gpx": f"a GPX file: {_CONVERT}",
+    "gml": f"a GML file: {_CONVERT}",
+    "svg": "an SVG drawing: sample its paths first (crustline sample FILE.svg -r 0.2 …)",
+    "html": "a web page, not the file it leads to: download that one",
+    "vtkfile": f"a VTK file: {_CONVERT}",
+}
+_XML = re.compile(
+    rb"(?:<\?xml.*?\?>|<!--.*?-->|<!(?i:DOCTYPE)[^>\[]*(?:\[.*?\])?\s*>|\s)*<(?:\w+:)?(\w+)",
+    re.DOTALL,
+)
+_DXF = re.compile(rb"\s*(?:999\r?\n[^\n]*\n\s*)*0\r?\n\s*SECTION\r?\n")
+
+
+def known_archive(head: bytes) -> str | None:
+    """Return what a zip archive is that is a file of some program, and what to do."""
+    return next((what for name, what in _ARCHIVES if name in head), None)
+
+
+def foreign(head: bytes) -> str | None:
+    """Return what a file of these first bytes is, and what to do; None if that is not known."""
+    for magic, what in _SIGNATURES:
+        if head.startswith(magic):
+            return what
+    if head.startswith(b"PK\x03\x04"):
+        return known_archive(head) or "a zip archive: unpack it first"
+    root = _XML.match(head.removeprefix(b"\xef\xbb\xbf"))
+    if root:
+        word = root[1].decode("ascii", "replace")
+        return _ROOTS.get(word.lower(), f"an XML file of {word[:40]}: {_CONVERT}")
+    return f"a DXF file: {_CONVERT}" if _DXF.match(head) else None
