@@ -126,13 +126,13 @@ BAD_OPTIONS = [
     (["reconstruct", "square.csv", "--columns", "x,q"], ["square.csv", "'q'", "'name'"]),
     (["reconstruct", "square.csv", "--columns", "x"], ["columns"]),
     (["reconstruct", "square.csv", "--columns", "x,name"], ["line 2", "'name'", "'a'"]),
-    (["reconstruct", "square.csv", "--input-format", "shp"], ["'shp'"]),
+    (["reconstruct", "square.csv", "--input-format", "nef"], ["'nef'"]),
     (["reconstruct", "square.csv", "--input-format", "npy"], ["square.csv", "NPY"]),
     (["reconstruct", "none.csv"], ["none.csv", "no such file"]),
     (["reconstruct", "."], [".", "folder"]),
-    (["reconstruct", "square.csv", "-o", "out.shp"], ["out.shp", ".geojson"]),
+    (["reconstruct", "square.csv", "-o", "out.nef"], ["out.nef", ".geojson"]),
     (["reconstruct", "square.csv", "-o", "-"], ["--output-format"]),
-    (["reconstruct", "square.csv", "-o", "-", "--output-format", "shp"], ["'shp'"]),
+    (["reconstruct", "square.csv", "-o", "-", "--output-format", "nef"], ["'nef'"]),
     (["reconstruct", "square.csv", "-o", "a.csv", "-o", "none/b.csv"], ["none/b.csv", "folder"]),
     (["reconstruct", "square.csv", "-o", "."], [".", "folder"]),
     (["reconstruct", "square.csv", "-o", "a.csv", "-o", "a.csv"], ["a.csv", "once"]),
@@ -304,7 +304,9 @@ def test_a_smooth_ring_can_be_sampled_again(run, tmp_path):
 def test_tolerance_makes_few_pieces(goose):
     pytest.importorskip("scipy")
     _, out, _ = goose("smooth", "-o", "a.svg", "--json")
-    _, fewer, err = goose("smooth", "-o", "-", "--tolerance", "0.5", "--json")
+    _, fewer, err = goose(
+        "smooth", "-o", "-", "--output-format", "svg", "--tolerance", "0.5", "--json"
+    )
     assert fewer.startswith("<svg")
     assert json.loads(err)["pieces"] < json.loads(out)["pieces"] / 3
 
@@ -338,7 +340,7 @@ def test_a_missing_extra_is_named(goose, monkeypatch, tmp_path):
 BAD_USES = [
     (["certify"], ["INPUT"]),
     (["certify", "none.csv"], ["none.csv"]),
-    (["certify", "square.csv", "-o", "weak.shp"], ["weak.shp", ".xyz"]),
+    (["certify", "square.csv", "-o", "weak.nef"], ["weak.nef", ".xyz"]),
     (["medial-axis", "square.csv", "--prune", "-1"], ["--prune", "-1"]),
     (["medial-axis", "square.csv", "--prune", "nan"], ["--prune", "nan"]),
     (["medial-axis", "square.csv", "--box", "1,2,3"], ["--box", "1,2,3"]),

@@ -125,13 +125,21 @@ def test_arrays_of_both_orders_and_ends_are_read(tmp_path: Path) -> None:
 
 
 FOREIGN = {
-    "PNG": b"\x89PNG\r\n\x1a\n", "JPEG": b"\xff\xd8\xff\xe0", "PDF": b"%PDF-1.7",
-    "Shapefile": b"\x00\x00\x27\x0a" + bytes(96), "LAS": b"LASF" + bytes(200),
-    "SQLite": b"SQLite format 3\x00", "Parquet": b"PAR1\x15", "HDF5": b"\x89HDF\r\n\x1a\n",
-    "KML": b'<?xml version="1.0"?><!-- a --><kml xmlns="http://www.opengis.net/kml/2.2">',
-    "GPX": b"<gpx>", "SVG": b'<!DOCTYPE svg PUBLIC "-//W3C"><svg:svg>',
+    "PNG": b"\x89PNG\r\n\x1a\n",
+    "JPEG": b"\xff\xd8\xff\xe0",
+    "PDF": b"%PDF-1.7",
+    "LAS": b"LASF" + bytes(200),
+    "HDF5": b"\x89HDF\r\n\x1a\n",
+    "SVG": b'<!DOCTYPE svg PUBLIC "-//W3C"><svg:svg>',
     "web page": b"<!doctype html><html>",
-    "DXF": b"  0\r\nSECTION\r\n  2\r\nHEADER\r\n", "DWG": b"AC1027", "pickle": b"\x80\x04\x95",
+    "DWG": b"AC1027",
+    "pickle": b"\x80\x04\x95",
+}
+READABLE = {
+    "Shapefile": b"\x00\x00\x27\x0a" + bytes(96), "GeoPackage": b"SQLite format 3\x00",
+    "GeoParquet": b"PAR1\x15", "GPX": b"<gpx>",
+    "KML": b'<?xml version="1.0"?><!-- a --><kml xmlns="http://www.opengis.net/kml/2.2">',
+    "DXF": b"  0\r\nSECTION\r\n  2\r\nHEADER\r\n",
     "Excel": zipped(xl_workbook=b"?").replace(b"xl.workbook", b"xl/workbook"),
 }  # fmt: skip
 
@@ -142,6 +150,14 @@ def test_a_wrong_file_is_named(tmp_path: Path, kind: str, suffix: str) -> None:
     path = tmp_path / f"points{suffix}"
     path.write_bytes(FOREIGN[kind])
     assert kind in refusal(path)
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".txt"])
+@pytest.mark.parametrize("kind", READABLE)
+def test_a_wrong_name_is_named(tmp_path: Path, kind: str, suffix: str) -> None:
+    path = tmp_path / f"points{suffix}"
+    path.write_bytes(READABLE[kind])
+    assert f"is {kind} inside: name it ." in refusal(path)
 
 
 def test_bytes_that_are_no_text_are_named() -> None:

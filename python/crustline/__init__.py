@@ -13,7 +13,7 @@ from crustline.certify import Certificate, certify
 from crustline.curves import Curve, Curves, Polygon, trace
 from crustline.delaunay import Delaunay
 from crustline.errors import CrustlineError, FormatError, InputError, MissingExtraError
-from crustline.formats import read, write
+from crustline.formats import read, read_curves, write
 from crustline.interpolant import Interpolant, local_feature_size
 from crustline.medial_axis import MedialAxis, medial_axis
 from crustline.methods import (
@@ -41,6 +41,7 @@ from crustline.methods import (
     sig_delaunay,
 )
 from crustline.points import Points
+from crustline.projection import project
 from crustline.reconstruction import Reconstruction, reconstruct
 from crustline.shapes.ratio import is_r_sample, sampling_ratio
 from crustline.shapes.sampling import Sample, r_sample, sample_for_error
@@ -96,9 +97,11 @@ __all__ = [
     "nn_crust",
     "one_step_crust",
     "peel",
+    "project",
     "r_sample",
     "rcgh",
     "read",
+    "read_curves",
     "reconstruct",
     "relative_neighborhood",
     "sample_for_error",

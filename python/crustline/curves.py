@@ -254,6 +254,73 @@ class Curves(Record, Sequence[Curve]):
 
         write(self, path, format=format, **options)
 
+    def to_shapely(self, *, polygons: bool = False) -> list[Any]:
+        """Return shapely geometries: lines and rings, or polygons, then the isolated points.
+
+        Parameters
+        ----------
+        polygons : bool, default False
+            Whether rings are joined to polygons with holes; else each is a closed LineString.
+
+        Returns
+        -------
+        geometries : list of shapely geometries
+            In the order of `features`; with heights if the points have them. Isolated points are
+            one MultiPoint at the end.
+
+        Examples
+        --------
+        >>> curves = trace([(0, 0), (1, 0), (0, 1)], [(0, 1), (1, 2), (0, 2)])
+        >>> curves.to_shapely(polygons=True)[0].area
+        0.5
+        """
+        from crustline.formats.objects import to_shapely
+
+        return to_shapely(self, polygons)
+
+    def to_geopandas(self, *, polygons: bool = False) -> Any:
+        """Return a GeoDataFrame: a row a feature, with curve, closed, length, rows and geometry.
+
+        Parameters
+        ----------
+        polygons : bool, default False
+            As for `to_shapely`.
+
+        Notes
+        -----
+        `rows` are those of the points. A column of the points that is the same all along each curve
+        is kept; of others numbers become NAME_min, NAME_mean and NAME_max, and texts are joined.
+        The CRS is that of the points.
+        """
+        from crustline.formats.objects import to_geopandas
+
+        return to_geopandas(self, polygons)
+
+    def to_networkx(self) -> Any:
+        """Return a networkx Graph: a node a row of the points, and the edges with their length."""
+        from crustline.formats.objects import to_networkx
+
+        return to_networkx(self)
+
+    def to_scipy(self) -> Any:
+        """Return the adjacency as a symmetric scipy sparse array (n, n) of the edges' lengths."""
+        from crustline.formats.objects import to_scipy
+
+        return to_scipy(self)
+
+    def to_pyvista(self) -> Any:
+        """Return a pyvista PolyData of the points, with a line a curve."""
+        from crustline.formats.objects import to_pyvista
+
+        return to_pyvista(self)
+
+    @property
+    def __geo_interface__(self) -> dict[str, Any]:
+        """The curves as a GeoJSON FeatureCollection, for libraries that take such objects."""
+        from crustline.formats.objects import geo_interface
+
+        return geo_interface(self)
+
     def plot(self, ax: Axes | None = None, **options: Any) -> Axes:
         """Draw the curves with matplotlib; see `crustline.plot.plot_curves`."""
         from crustline.plot import plot_curves

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from crustline import _core
 from crustline.arrays import IntArray, read_only
 from crustline.notebook import table
-from crustline.points import Points
+from crustline.points import Points, as_carried
 from crustline.scalars import as_whole
 
 if TYPE_CHECKING:
@@ -104,7 +104,7 @@ class Delaunay:
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> None:
-        self.points = points if isinstance(points, Points) else Points(points)
+        self.points = as_carried(points)
         self._how = (None if threads is None else as_whole("threads", threads, 1), progress)
         self._core = _core.Delaunay(self.points.xy, *self._how)
         self._made: dict[str, Any] = {}
@@ -226,4 +226,4 @@ def points_and_how(points: ArrayLike | Delaunay) -> tuple[Points, How]:
     """Return points with all that they carry, and how long calls about them are to run."""
     if isinstance(points, Delaunay):
         return points.points, points._how
-    return points if isinstance(points, Points) else Points(points), (None, None)
+    return as_carried(points), (None, None)

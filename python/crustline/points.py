@@ -220,6 +220,17 @@ class Points:
         return f"<Points: {rows}{beside}; crs {self.crs}>"
 
 
+def as_carried(points: Any) -> Points:
+    """Return what a caller gives as points, with all that it carries: frames and tables, too."""
+    if isinstance(points, Points):
+        return points
+    if hasattr(points, "__arrow_c_stream__") or hasattr(points, "geom_type"):
+        from crustline.formats.objects import points_of_object
+
+        return points_of_object(points)
+    return Points(points)
+
+
 def _rebuild(
     xy: FloatArray,
     z: FloatArray | None,

@@ -3,20 +3,45 @@
 from __future__ import annotations
 
 from crustline.errors import FormatError, InputError
+from crustline.formats.dxf import DXF
+from crustline.formats.excel import EXCEL
 from crustline.formats.format import Format, Option
 from crustline.formats.geojson import GEOJSON
 from crustline.formats.npy import NPY, NPZ
+from crustline.formats.parquet import FEATHER, PARQUET
 from crustline.formats.signatures import foreign
 from crustline.formats.source import Source
 from crustline.formats.svg import SVG
 from crustline.formats.target import Target
 from crustline.formats.text import CSV, TSV, XYZ
+from crustline.formats.vector import FGB, GPKG, GPX, KML, SHP
 from crustline.formats.wkt import WKT
 
 __all__ = ["FORMATS", "able", "format_of_source", "format_of_target", "options_for", "suffixes_for"]
 
 #: Every format by its name; where several claim a file, the first whose `sniff` says so is it.
-FORMATS = {each.name: each for each in (CSV, TSV, XYZ, GEOJSON, WKT, NPZ, NPY, SVG)}
+FORMATS = {
+    each.name: each
+    for each in (
+        CSV,
+        TSV,
+        XYZ,
+        GEOJSON,
+        WKT,
+        NPZ,
+        NPY,
+        SVG,
+        GPKG,
+        SHP,
+        FGB,
+        KML,
+        GPX,
+        PARQUET,
+        FEATHER,
+        DXF,
+        EXCEL,
+    )
+}
 
 
 def able(task: str) -> list[Format]:
@@ -46,6 +71,11 @@ def format_of_source(source: Source, name: str | None, task: str = "read") -> Fo
     seen = [each for each in claimed or able(task) if each.sniff and each.sniff(source.head)]
     if seen:
         return seen[0]
+    known = [each for each in able(task) if each.sniff and each.sniff(source.head)]
+    if known:
+        raise FormatError(
+            f"{source.name} is {known[0].title} inside: name it {known[0].suffixes[0]}"
+        )
     what = foreign(source.head)
     if what is not None:
         raise FormatError(f"{source.name} is {what}")

@@ -233,8 +233,13 @@ def _crs(document: dict[str, Any]) -> str | None:
 
 def write_curves(curves: Curves, target: Target, *, polygons: bool = False) -> None:
     """Write the curves as a FeatureCollection, a line of text for each feature."""
+    target.write(collection_of(curves, polygons=polygons))
+
+
+def collection_of(curves: Curves, *, polygons: bool) -> str:
+    """Return the text of the FeatureCollection of curves."""
     features = map(_dump, _features_of(curves, polygons))
-    target.write(_collection(attributes_of(curves).crs, features))
+    return _collection(attributes_of(curves).crs, features)
 
 
 def write_points(points: Points, target: Target) -> None:

@@ -11,8 +11,10 @@ from crustline.scalars import as_positive
 __all__ = [
     "COLUMNS",
     "ENCODING",
+    "LAYER",
     "POLYGONS",
     "TOLERANCE",
+    "WHERE",
     "choice",
     "flag",
     "length",
@@ -100,6 +102,8 @@ COLUMNS = Option(
     _as_columns,
     "X,Y",
 )
+LAYER = text("layer", "The layer to read, of a file with several.", "NAME")
+WHERE = text("where", "Read only the rows that fit, in SQL, such as \"kind = 'coast'\".", "SQL")
 POLYGONS = flag("polygons", "Write rings as polygons with holes.")
 TOLERANCE = length(
     "tolerance", "How far splines may be from what is written, in the unit of the points.", "T"

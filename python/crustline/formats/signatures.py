@@ -16,17 +16,10 @@ _SIGNATURES = (
     (b"MM\x00*", f"a TIFF file, {_PICTURE}"),
     (b"%PDF", "a PDF file: save its drawing as SVG or DXF"),
     (b"%!PS", "a PostScript file: save its drawing as SVG or DXF"),
-    (b"\x00\x00\x27\x0a", f"a Shapefile: {_CONVERT}"),
-    (b"SQLite format 3\x00", f"an SQLite file, such as a GeoPackage: {_CONVERT}"),
-    (b"fgb\x03", f"a FlatGeobuf file: {_CONVERT}"),
     (b"LASF", f"a LAS or LAZ file: {_CONVERT}"),
-    (b"PAR1", f"a Parquet file: {_CONVERT}"),
-    (b"ARROW1", f"an Arrow or Feather file: {_CONVERT}"),
     (b"\x89HDF", f"an HDF5 file: {_CONVERT}"),
     (b"CDF", f"a NetCDF file: {_CONVERT}"),
     (b"AC10", "a DWG file: save it as DXF"),
-    (b"AutoCAD Binary DXF", "a binary DXF file: save it as text DXF"),
-    (b"\xd0\xcf\x11\xe0", "an old Office file: save the sheet as CSV"),
     (b"MATLAB 5.0", f"a MATLAB file: {_CONVERT}"),
     (b"\x28\xb5\x2f\xfd", "packed by zstd: unpack it first"),
     (b"7z\xbc\xaf\x27\x1c", "a 7z archive: unpack it first"),
@@ -37,14 +30,12 @@ _SIGNATURES = (
     (b"ply\r", f"a PLY file: {_CONVERT}"),
 )
 _ARCHIVES = (
-    (b"xl/", "an Excel file: save the sheet as CSV"),
+    (b"xl/", "an Excel file: name it .xlsx"),
     (b"[Content_Types].xml", "an Office file: save the sheet as CSV"),
-    (b"mimetype", "an OpenDocument file: save the sheet as CSV"),
+    (b"mimetype", "an OpenDocument file: name a sheet of it .ods"),
     (b"doc.kml", "a KMZ file: save it as GeoJSON"),
 )
 _ROOTS = {
-    "kml": f"a KML file: {_CONVERT}",
-    "gpx": f"a GPX file: {_CONVERT}",
     "gml": f"a GML file: {_CONVERT}",
     "svg": "an SVG drawing: sample its paths first (crustline sample FILE.svg -r 0.2 …)",
     "html": "a web page, not the file it leads to: download that one",
@@ -54,7 +45,6 @@ _XML = re.compile(
     rb"(?:<\?xml.*?\?>|<!--.*?-->|<!(?i:DOCTYPE)[^>\[]*(?:\[.*?\])?\s*>|\s)*<(?:\w+:)?(\w+)",
     re.DOTALL,
 )
-_DXF = re.compile(rb"\s*(?:999\r?\n[^\n]*\n\s*)*0\r?\n\s*SECTION\r?\n")
 
 
 def known_archive(head: bytes) -> str | None:
@@ -73,4 +63,4 @@ def foreign(head: bytes) -> str | None:
     if root:
         word = root[1].decode("ascii", "replace")
         return _ROOTS.get(word.lower(), f"an XML file of {word[:40]}: {_CONVERT}")
-    return f"a DXF file: {_CONVERT}" if _DXF.match(head) else None
+    return None

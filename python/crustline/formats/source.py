@@ -118,15 +118,18 @@ class Source:
         return text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
 
     @contextmanager
-    def path(self) -> Iterator[Path]:
-        """Give the path of a file with these bytes, for libraries that open files themselves."""
+    def path(self, suffix: str = "") -> Iterator[Path]:
+        """Give the path of a file with these bytes, for libraries that open files themselves.
+
+        It ends with `suffix` where the bytes come from no file.
+        """
         if self._is_file:
             with self.open():
                 pass
             yield Path(self.given)
             return
         with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder, f"source{self.suffix}")
+            path = Path(folder, f"source{suffix or self.suffix}")
             with open(path, "wb") as file:
                 file.writelines(self.chunks())
             yield path

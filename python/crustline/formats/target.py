@@ -62,9 +62,10 @@ class Target:
                     file.writelines(map(_as_bytes, pieces))
 
     @contextmanager
-    def path(self) -> Iterator[Path]:
+    def path(self, suffix: str = "") -> Iterator[Path]:
         """Give a path for a library to write to; all files of its folder are put in place after.
 
+        It ends with `suffix` where the target has no name. A stream takes one file only.
         Nothing is left behind if the block raises an exception.
         """
         with self._named_faults():
@@ -73,8 +74,10 @@ class Target:
                     yield path
                 return
             with tempfile.TemporaryDirectory() as folder:
-                path = Path(folder, f"target{self.suffix}")
+                path = Path(folder, f"target{suffix or self.suffix}")
                 yield path
+                if len(os.listdir(folder)) > 1:
+                    raise FormatError(f"{self.name} has no room for several files: give a name")
                 self.write(path.read_bytes())
 
     @contextmanager

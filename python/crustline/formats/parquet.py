@@ -1,0 +1,268 @@
+"""Parquet, with geometries as GeoParquet 1.1 holds them, and Feather: tables by pyarrow."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from crustline.curves import Curves
+from crustline.errors import InputError
+from crustline.formats.arrow import as_table, as_wkb, column_of, points_of_wkb
+from crustline.formats.attributes import attributes_of_points
+from crustline.formats.features import curve_columns
+from crustline.formats.format import Format
+from crustline.formats.geometries import (
+    curves_of,
+    geometries_of,
+    points_of,
+    vertices_of,
+)
+from crustline.formats.names import find_coordinates
+from crustline.formats.options import COLUMNS, POLYGONS
+from crustline.formats.source import Source
+from crustline.formats.target import Target
+from crustline.points import Points
+
+Chosen = Sequence[str | int] | None
+_GEOMETRY = "geometry"
+_CRS = b"crs"
+
+
+def read(source: Source, *, columns: Chosen = None) -> Points:
+    """Return the vertices of the geometries, or of a plain table the columns of x and y."""
+    with source.path() as path, source.library("pyarrow"):
+        import pyarrow.parquet as pq
+
+        table = pq.read_table(path)
+    return _points(table, source, columns)
+
+
+def read_feather(source: Source, *, columns: Chosen = None) -> Points:
+    """Return the columns of x and y, and those beside them."""
+    with source.path() as path, source.library("pyarrow"):
+        import pyarrow.feather as feather
+
+        table = feather.read_table(path)
+    return _points(table, source, columns)
+
+
+def stream(source: Source, rows: int, *, columns: Chosen = None) -> Iterator[Points]:
+    """Yield the points of so many rows at a time."""
+    with source.path() as path, source.library("pyarrow"):
+        import pyarrow as pa
+        import pyarrow.parquet as pq
+
+        with pq.ParquetFile(path) as file:
+            schema = file.schema_arrow
+            for batch in file.iter_batches(rows):
+                table = pa.Table.from_batches([batch]).replace_schema_metadata(schema.metadata)
+                yield _points(table, source, columns)
+
+
+def read_curves(source: Source) -> Curves:
+    """Return the lines and rings of the geometries."""
+    with source.path() as path, source.library("pyarrow"):
+        import pyarrow.parquet as pq
+
+        table = pq.read_table(path)
+    about = _geometry(table, source)
+    if about is None:
+        raise source.error("it is a table without geometries: read points from it")
+    name, crs = about
+    with source.library("shapely"):
+        return curves_of(_geometries(table.column(name)), _columns(table, [name]), crs)
+
+
+def _points(table: Any, source: Source, columns: Chosen) -> Points:
+    about = None if columns is not None else _geometry(table, source)
+    try:
+        if about is None:
+            return points_of_table(table, source, columns)
+        return _of(table, source, *about)
+    except InputError as error:
+        raise source.error(str(error)) from None
+
+
+def _of(table: Any, source: Source, name: str, crs: str | None) -> Points:
+    array = table.column(name)
+    xyz = points_of_wkb(array)
+    if xyz is None:
+        with source.library("shapely"):
+            geometries = _geometries(array)
+        points = points_of(geometries, _columns(table, [name, "bbox"]), crs)
+        return points.replace(columns={**points.columns, **_lists_a_vertex(table, geometries)})
+    rest = _columns(table, [name, "bbox"])
+    return Points(xyz[:, :2], z=xyz[:, 2] if xyz.shape[1] == 3 else None, columns=rest, crs=crs)
+
+
+def _lists_a_vertex(table: Any, geometries: npt.NDArray[np.object_]) -> dict[str, npt.NDArray[Any]]:
+    """Return the columns of lists that have a value for each vertex, spread over them."""
+    import pyarrow as pa
+
+    counts = np.bincount(vertices_of(geometries).owners, minlength=len(geometries))
+    lists = [each.name for each in table.schema if pa.types.is_list(each.type)]
+    return {
+        name: column_of(pa.compute.list_flatten(table.column(name)).combine_chunks())
+        for name in lists
+        if (table.column(name).combine_chunks().value_lengths().to_numpy() == counts).all()
+    }
+
+
+def points_of_table(table: Any, source: Source, columns: Chosen) -> Points:
+    """Return the columns of x and y of an Arrow table, and those beside them."""
+    names = table.column_names
+    places = find_coordinates(names, columns, source.name)
+    chosen = [names[place] for place in places]
+    source.note("columns", ", ".join(chosen))
+    x, y, *z = (_numbers(table.column(name), name, source) for name in chosen)
+    xy = np.stack([x, y], axis=1)
+    rest = _columns(table, chosen)
+    crs = (table.schema.metadata or {}).get(_CRS)
+    return Points(
+        xy,
+        z=z[0] if z else None,
+        columns=rest,
+        crs=None if crs is None else crs.decode(),
+        names=(chosen[0], chosen[1]),
+    )
+
+
+def _numbers(array: Any, name: str, source: Source) -> npt.NDArray[Any]:
+    if array.null_count:
+        row = array.is_null().to_pylist().index(True)
+        raise source.error(f"{name!r} has no value: remove the row or fill it in", f"row {row}")
+    values = column_of(array.combine_chunks())
+    if values.dtype.kind not in "fiu":
+        raise source.error(f"the column {name!r} is {array.type}, not numbers: choose another")
+    return values
+
+
+def _columns(table: Any, left_out: Sequence[str]) -> dict[str, npt.NDArray[Any]]:
+    names = [each for each in table.column_names if each not in left_out]
+    names = [each for each in names if not each.startswith("__index_level_")]
+    return {name: column_of(table.column(name).combine_chunks()) for name in names}
+
+
+def _geometry(table: Any, source: Source) -> tuple[str, str | None] | None:
+    """Return the name of the column of geometries and their CRS, as the metadata give them."""
+    text = (table.schema.metadata or {}).get(b"geo")
+    if text is None:
+        return None
+    try:
+        about = json.loads(text)
+        name = about["primary_column"]
+        column = about["columns"][name]
+        encoding = column["encoding"]
+    except (ValueError, KeyError, TypeError):
+        raise source.error("its GeoParquet metadata are damaged: write it again") from None
+    if encoding != "WKB" or name not in table.column_names:
+        raise source.error(f"its geometries are {encoding!s:.20}, not WKB: write it as WKB")
+    return name, _crs_name(column.get("crs", "OGC:CRS84"))
+
+
+def _crs_name(crs: Any) -> str | None:
+    if crs is None or isinstance(crs, str):
+        return crs
+    authority = crs.get("id", {})
+    if {"authority", "code"} <= authority.keys():
+        return f"{authority['authority']}:{authority['code']}"
+    import pyproj
+
+    return str(pyproj.CRS.from_json_dict(crs).to_wkt())
+
+
+def _geometries(array: Any) -> npt.NDArray[np.object_]:
+    import shapely
+
+    made: npt.NDArray[np.object_] = shapely.from_wkb(array.to_numpy())
+    return made
+
+
+# Writing
+
+
+def write_points(points: Points, target: Target) -> None:
+    """Write a row a point."""
+    kind = "Point" if points.z is None else "Point Z"
+    _write({**points.columns, _GEOMETRY: as_wkb(points.xy, points.z)}, [kind], points.crs, target)
+
+
+def write_curves(curves: Curves, target: Target, *, polygons: bool = False) -> None:
+    """Write a row a curve, with the values of its points as lists; isolated points as the last."""
+    import pyarrow as pa
+    import shapely
+
+    made, rows = geometries_of(curves, polygons)
+    columns: dict[str, Any] = curve_columns(curves, rows, polygons, lists=True)
+    kinds = {shapely.get_type_id(each): each.geom_type for each in made}
+    columns[_GEOMETRY] = pa.array(list(shapely.to_wkb(made, flavor="iso")), pa.binary())
+    z = "" if curves.points.z is None else " Z"
+    _write(columns, [f"{kinds[key]}{z}" for key in sorted(kinds)], curves.points.crs, target)
+
+
+def _write(
+    columns: Mapping[str, Any], kinds: Sequence[str], crs: str | None, target: Target
+) -> None:
+    import pyarrow.parquet as pq
+
+    column = {"encoding": "WKB", "geometry_types": list(kinds), "crs": _crs_json(crs)}
+    about = {"version": "1.1.0", "primary_column": _GEOMETRY, "columns": {_GEOMETRY: column}}
+    table = as_table(columns).replace_schema_metadata({b"geo": json.dumps(about).encode()})
+    with target.path(".parquet") as path:
+        pq.write_table(table, path, compression="zstd")
+
+
+def _crs_json(crs: str | None) -> Any:
+    if crs is None:
+        return None
+    import pyproj
+
+    try:
+        return pyproj.CRS.from_user_input(crs).to_json_dict()
+    except pyproj.exceptions.CRSError:
+        raise InputError(f"the CRS {crs!r:.60} is unknown: write it as EPSG:25832") from None
+
+
+def write_feather(points: Points, target: Target) -> None:
+    """Write the coordinates by the names that they had, z, and the other columns."""
+    import pyarrow.feather as feather
+
+    columns = dict(zip(points.names, points.xy.T, strict=True))
+    if points.z is not None:
+        columns["z"] = points.z
+    table = as_table(columns | attributes_of_points(points, reserved=columns).columns)
+    if points.crs is not None:
+        table = table.replace_schema_metadata({_CRS: points.crs.encode()})
+    with target.path(".feather") as path:
+        feather.write_feather(table, str(path), compression="zstd")
+
+
+PARQUET = Format(
+    name="parquet",
+    title="GeoParquet",
+    suffixes=(".parquet", ".geoparquet"),
+    sniff=lambda head: head.startswith(b"PAR1"),
+    read=read,
+    read_curves=read_curves,
+    stream=stream,
+    write_points=write_points,
+    write_curves=write_curves,
+    options=(COLUMNS, POLYGONS),
+    extra="gis",
+    needs=("pyarrow", "shapely", "pyproj"),
+)
+FEATHER = Format(
+    name="feather",
+    title="Feather",
+    suffixes=(".feather", ".arrow"),
+    sniff=lambda head: head.startswith(b"ARROW1"),
+    read=read_feather,
+    write_points=write_feather,
+    options=(COLUMNS,),
+    extra="gis",
+    needs=("pyarrow",),
+)

@@ -1,0 +1,121 @@
+"""Map projections, by PROJ: distances and angles on the globe for methods of the plane."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from crustline.errors import InputError, missing_extra
+from crustline.points import Points
+
+__all__ = ["is_geographic", "project", "to_longitude_latitude"]
+
+_LONGITUDE_LATITUDE = "OGC:CRS84"
+#: Mean directions shorter than this belong to points all around the globe.
+_AROUND = 0.1
+
+
+def project(points: Points, crs: str = "auto") -> Points:
+    """Return points in another coordinate reference system, with all that they carry.
+
+    Parameters
+    ----------
+    points : Points
+        With a CRS.
+    crs : str, default "auto"
+        Where to: "EPSG:25832" or whatever PROJ knows; or "auto", which leaves planar coordinates as
+        they are and takes longitudes and latitudes to the stereographic projection about the middle
+        of the points. It is conformal, and circles on the sphere stay circles, so that a curve
+        across the 180th meridian, or around a pole, is as whole as any other.
+
+    Returns
+    -------
+    points : Points
+        The same rows. x is east, y is north; in meters for "auto".
+
+    Raises
+    ------
+    InputError
+        If the points have no CRS, a CRS is unknown, or a point is nowhere in the new one; names the
+        row.
+    MissingExtraError
+        If pyproj is not installed.
+
+    Examples
+    --------
+    >>> fiji = Points([(179.5, -17), (-179.5, -17)], crs="EPSG:4326")
+    >>> across = project(fiji)
+    >>> bool(abs(across.xy[1, 0] - across.xy[0, 0]) < 107_000)
+    True
+    """
+    if points.crs is None:
+        raise InputError("the points have no CRS to project from: name it with crs (--crs)")
+    source = _crs(points.crs)
+    if crs != "auto":
+        return _transformed(points, source, _crs(crs), crs)
+    if not source.is_geographic:
+        return points
+    longitude, latitude = _middle(to_longitude_latitude(points).xy)
+    name = f"+proj=stere +lat_0={latitude!r} +lon_0={longitude!r} +datum=WGS84 +units=m"
+    return _transformed(points, source, _crs(name), name)
+
+
+def to_longitude_latitude(points: Points) -> Points:
+    """Return points that have a CRS in longitude and latitude on WGS 84, in this order."""
+    if points.crs in (_LONGITUDE_LATITUDE, "EPSG:4326"):
+        return points
+    return project(points, _LONGITUDE_LATITUDE)
+
+
+def is_geographic(points: Points) -> bool:
+    """Return whether the coordinates of points are angles, as far as their CRS says."""
+    return points.crs in (_LONGITUDE_LATITUDE, "EPSG:4326") or (
+        points.crs is not None and bool(_crs(points.crs).is_geographic)
+    )
+
+
+def _crs(name: str) -> Any:
+    try:
+        import pyproj
+    except ImportError:
+        raise missing_extra("gis", "pyproj") from None
+    try:
+        return pyproj.CRS.from_user_input(name)
+    except pyproj.exceptions.CRSError:
+        raise InputError(f"the CRS {name!r:.60} is unknown: write it as EPSG:25832") from None
+
+
+def _transformed(points: Points, source: Any, target: Any, name: str) -> Points:
+    import pyproj
+
+    change: Callable[..., Any] = pyproj.Transformer.from_crs(
+        source, target, always_xy=True
+    ).transform
+    xy = np.stack(change(*points.xy.T), axis=1) if len(points) else points.xy
+    lost = ~np.isfinite(xy).all(axis=1)
+    if lost.any():
+        row = int(np.argmax(lost))
+        place = points.xy[row].tolist()
+        raise InputError(f"points: row {row}, {place}, is nowhere in {name}: choose another CRS")
+    return Points(xy, z=points.z, columns=points.columns, crs=name, names=points.names)
+
+
+def _middle(degrees: ArrayLike) -> tuple[float, float]:
+    """Return the longitude and latitude in the middle of points on the globe.
+
+    It is the mean direction. Points all around the globe, along its equator or any other great
+    circle, have none; the axis that they run around serves then.
+    """
+    longitude, latitude = np.radians(np.asarray(degrees, dtype=np.float64)).T
+    flat = np.cos(latitude)
+    places: NDArray[np.float64] = np.stack(
+        [flat * np.cos(longitude), flat * np.sin(longitude), np.sin(latitude)], axis=1
+    )
+    mean = places.mean(axis=0) if len(places) else np.array([1.0, 0.0, 0.0])
+    if np.linalg.norm(mean) < _AROUND:
+        mean = np.linalg.svd(places, full_matrices=False)[2][2]
+    x, y, z = mean
+    return float(np.degrees(np.arctan2(y, x))), float(np.degrees(np.arctan2(z, np.hypot(x, y))))
