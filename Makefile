@@ -70,7 +70,8 @@ bench-instructions: ## Count instructions with callgrind and and bytes, and fail
 COVERAGE := -Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 -Cllvm-args=-sanitizer-coverage-inline-8bit-counters \
 	-Cllvm-args=-sanitizer-coverage-pc-table -Ccodegen-units=1 --cfg fuzzing
 
-fuzz: ## Fuzz the triangulation and the crust for a minute.
+fuzz: build ## Fuzz the core for a minute, and every public function with EXAMPLES=100000 calls.
+	HYPOTHESIS_PROFILE=fuzz $(BIN)/pytest tests/test_hostile.py -k any_call
 	cd crates/core/fuzz && RUSTFLAGS="$(COVERAGE)" cargo run --release --target "$$(rustc -vV | sed -n 's/host: //p')" -- -max_total_time=60 -max_len=512
 
 figures: build ## Redraw the paper's figures into docs/gallery/.

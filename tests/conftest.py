@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,11 @@ from hypothesis import settings
 settings.register_profile(
     "crustline", derandomize=True, deadline=None, database=None, max_examples=80
 )
-settings.load_profile("crustline")
+# For hours, and different each time: make fuzz.
+settings.register_profile(
+    "fuzz", deadline=None, max_examples=int(os.environ.get("EXAMPLES", "100000"))
+)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "crustline"))
 
 
 @pytest.fixture(scope="session")

@@ -394,7 +394,7 @@ def test_methods_are_known_by_name_or_as_functions() -> None:
     def beta_skeleton() -> None: ...
 
     assert theory.guaranteed_r(beta_skeleton) == theory.guaranteed_r("beta-skeleton")
-    with pytest.raises(InputError, match="nothing of this kind for alpha_shape"):
+    with pytest.raises(InputError, match="nothing of this kind for 'alpha_shape'"):
         theory.guaranteed_r("alpha_shape")
     with pytest.raises(InputError, match=r"phi is defined for beta in \[1, inf\], got 0\.5"):
         theory.guaranteed_r("beta_skeleton", 0.5)

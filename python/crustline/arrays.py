@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from crustline import _core
-from crustline.errors import InputError
+from crustline.errors import InputError, shown
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
@@ -66,12 +66,53 @@ def as_points(points: npt.ArrayLike) -> FloatArray:
     return coordinates
 
 
+def as_floats(name: str, values: npt.ArrayLike) -> FloatArray:
+    """Return real numbers of any shape as float64, or an `InputError` that names them.
+
+    Examples
+    --------
+    >>> as_floats("t", [0, 1])
+    array([0., 1.])
+    """
+    try:
+        array = np.asarray(_not_too_deep(values, most=8))
+        if array.dtype.kind == "O" and all(_is_real(each) for each in array.flat):
+            array = array.astype(np.float64)
+    except (ValueError, TypeError, OverflowError):
+        array = np.array("")
+    if array.dtype.kind not in "fiu":
+        raise InputError(f"{name} must be a number or an array of numbers, not {shown(values)}")
+    return array.astype(np.float64)
+
+
+def _is_real(value: object) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool | np.bool_)
+
+
+def _not_too_deep(values: Any, most: int) -> Any:
+    """Return sequences of sequences if they are not nested more than so often.
+
+    What holds itself is nested without end, and NumPy would look for it.
+    """
+    inner = values
+    for _ in range(most + 1):
+        if isinstance(inner, np.ndarray | np.generic | str | bytes) or hasattr(inner, "__array__"):
+            return values
+        if not (hasattr(inner, "__len__") and hasattr(inner, "__getitem__")):
+            return values
+        try:
+            inner = inner[0]
+        except Exception:  # someone else's code; an empty sequence, or a mapping
+            return values
+    raise ValueError("too deep")
+
+
 def _as_array(points: npt.ArrayLike) -> npt.NDArray[Any]:
     if isinstance(points, np.ma.MaskedArray) and np.ma.is_masked(points):
         row = int(np.argwhere(np.ma.getmaskarray(points))[0][0])
         raise InputError(f"points: row {row} is masked: remove the masked rows first")
     try:
-        return np.asarray(points)
+        return np.asarray(_not_too_deep(points, most=3))
     except (ValueError, TypeError, OverflowError):
         raise InputError(_name_bad_row(points)) from None
 
@@ -123,8 +164,9 @@ def _check_exact(array: npt.NDArray[Any], coordinates: FloatArray) -> None:
 
 def _name_bad_row(points: Any) -> str:
     """Return the sentence about the first row that is not a pair of numbers."""
-    if isinstance(points, str | bytes) or not isinstance(points, Iterable):
-        return f"points: {points!r:.60} is not an array of shape (n, 2): pass rows of x, y"
+    scalar = isinstance(points, str | bytes | np.generic) or getattr(points, "ndim", 1) == 0
+    if scalar or not isinstance(points, Iterable):
+        return f"points: {shown(points)} is not an array of shape (n, 2): pass rows of x, y"
     if iter(points) is points:
         return f"points: {type(points).__name__} is not an array: pass a list of rows of x, y"
     for number, row in enumerate(points):
@@ -136,12 +178,12 @@ def _name_bad_row(points: Any) -> str:
 
 def _fault_of_row(row: Any) -> str | None:
     if isinstance(row, str | bytes) or not hasattr(row, "__len__"):
-        return f"is {row!r:.60}"
+        return f"is {shown(row)}"
     if len(row) != 2:
         return f"has {len(row)} values"
     for value in row:
-        if isinstance(value, bool | np.bool_) or not isinstance(value, Real):
-            return f"has {value!r:.60}, which is not a real number"
+        if not _is_real(value):
+            return f"has {shown(value)}, which is not a real number"
     return None
 
 
@@ -175,7 +217,7 @@ def as_rows(rows: npt.ArrayLike, n: int) -> IntArray:
     ([0, 2], [2, 0])
     """
     try:
-        array = np.asarray(rows)
+        array = np.asarray(_not_too_deep(rows, most=2))
     except (ValueError, TypeError, OverflowError):
         raise InputError("rows: they are not all integers: pass a flat list of rows") from None
     if array.dtype.kind == "b" and array.shape == (n,):
@@ -223,7 +265,7 @@ def as_edges(edges: npt.ArrayLike, n: int) -> IntArray:
     [[0, 1], [1, 2]]
     """
     try:
-        array = np.asarray(edges)
+        array = np.asarray(_not_too_deep(edges, most=3))
     except (ValueError, TypeError, OverflowError):
         raise InputError(
             "edges: the rows are not all pairs of integers: pass rows of i, j"

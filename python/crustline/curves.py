@@ -16,6 +16,7 @@ from crustline.arrays import BoolArray, FloatArray, IntArray, as_edges, read_onl
 from crustline.delaunay import Delaunay, points_and_how
 from crustline.points import Points
 from crustline.records import Record
+from crustline.scalars import as_flag
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -234,7 +235,7 @@ class Curves(Record, Sequence[Curve]):
         >>> [(each.number, each.kind, each.closed) for each in curves.features(polygons=True)]
         [(0, 'polygon', True), (None, 'points', False)]
         """
-        number = 0
+        number, polygons = 0, as_flag("polygons", polygons)
         for polygon in self.polygons() if polygons else []:
             holes = (hole[::-1] for hole in polygon.holes)
             yield Feature(number, "polygon", (polygon.shell, *holes), True)

@@ -26,6 +26,8 @@ How = tuple[int | None, Progress | None]
 
 Made = TypeVar("Made")
 
+MOST_THREADS = 1024
+
 
 class Delaunay:
     """The Delaunay triangulation of points: triangles whose circles hold no point inside.
@@ -105,7 +107,7 @@ class Delaunay:
         progress: Progress | None = None,
     ) -> None:
         self.points = as_carried(points)
-        self._how = (None if threads is None else as_whole("threads", threads, 1), progress)
+        self._how = (None if threads is None else as_threads(threads), progress)
         self._core = _core.Delaunay(self.points.xy, *self._how)
         self._made: dict[str, Any] = {}
 
@@ -215,6 +217,11 @@ class Delaunay:
         from crustline.plot import plot_delaunay
 
         return plot_delaunay(self, ax, **options)
+
+
+def as_threads(threads: object) -> int:
+    """Return a number of threads that can be had."""
+    return as_whole("threads", threads, 1, MOST_THREADS)
 
 
 def as_delaunay(points: ArrayLike | Delaunay) -> Delaunay:

@@ -23,6 +23,15 @@ class MissingExtraError(CrustlineError, ImportError):
     """A feature whose optional packages are not installed; names the extra to install."""
 
 
+def shown(value: object, most: int = 60) -> str:
+    """Return a value as messages show it: on one line, cut, whatever its own `repr` does."""
+    try:
+        text = " ".join(repr(value).split())
+    except Exception:  # someone else's code
+        text = object.__repr__(value)
+    return text if len(text) <= most else f"{text[: most - 1]}…"
+
+
 def missing_extra(extra: str, package: str) -> MissingExtraError:
     """Return the error that says which extra of crustline brings `package`."""
     return MissingExtraError(

@@ -14,14 +14,14 @@ import numpy as np
 import numpy.typing as npt
 
 from crustline import _core
-from crustline.arrays import BoolArray, FloatArray, IntArray
+from crustline.arrays import BoolArray, FloatArray, IntArray, as_floats
 from crustline.curves import Curves, trace
 from crustline.delaunay import Delaunay, as_delaunay
-from crustline.errors import InputError
+from crustline.errors import InputError, shown
 from crustline.methods import as_selected
 from crustline.points import Points
 from crustline.records import Record
-from crustline.scalars import as_choice, as_length
+from crustline.scalars import as_choice, as_flag, as_length
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -102,7 +102,7 @@ class MedialAxis(Record):
         [[[1.0, 0.5], [1.0, 0.0]], [[1.0, 0.5], [0.0, 0.5]], [[1.0, 0.5], [1.0, 1.0]]]
         """
         whole = np.concatenate([self.inner, np.zeros(len(self.ray_origins), bool)])
-        wanted = np.ones(len(whole), bool) if inner is None else whole == inner
+        wanted = np.ones(len(whole), bool) if inner is None else whole == as_flag("inner", inner)
         vertices, edges = self._clipped(_as_box(box), wanted)
         return vertices[edges]
 
@@ -349,10 +349,11 @@ def medial_axis(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = 
 
 
 def _as_box(box: npt.ArrayLike) -> FloatArray:
-    array = np.asarray(box, dtype=np.float64)
+    array = as_floats("box", box)
     if array.shape != (4,) or not np.isfinite(array).all() or (array[:2] > array[2:]).any():
         raise InputError(
-            f"box: {box!r} is not least x, least y, largest x, largest y: pass four finite numbers"
+            f"box: {shown(box)} is not least x, least y, largest x, largest y: "
+            "pass four finite numbers"
         )
     return array
 
@@ -361,7 +362,7 @@ def _passage(
     start: FloatArray, step: FloatArray, end: FloatArray, box: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Return the t in [0, end] at which start + t·step enters and leaves a box (Liang, Barsky)."""
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         one, other = (box[:2] - start) / step, (box[2:] - start) / step
     within = (box[:2] <= start) & (start <= box[2:])
     still = step == 0

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from crustline.arrays import FloatArray, as_points, as_rows, equal, read_only
-from crustline.errors import InputError
+from crustline.arrays import FloatArray, as_floats, as_points, as_rows, equal, read_only
+from crustline.errors import InputError, shown
 from crustline.notebook import table
 
 Column = npt.NDArray[Any]
@@ -90,7 +90,7 @@ class Points:
             xy=xy,
             z=None if z is None else _as_heights(z, len(xy)),
             columns=_NO_COLUMNS if columns is None else _as_columns(columns, len(xy)),
-            crs=_as_crs(crs),
+            crs=as_crs(crs),
             names=_X_Y if names is _X_Y else _as_names(names),
         )
 
@@ -252,10 +252,7 @@ def _rebuild(
 
 
 def _as_heights(z: npt.ArrayLike, n: int) -> FloatArray:
-    try:
-        heights = np.array(z, dtype=np.float64)
-    except (ValueError, TypeError):
-        raise InputError("z: the heights are not all numbers: pass one number a row") from None
+    heights = as_floats("z", z)
     if heights.shape != (n,):
         raise InputError(f"z: the shape is {heights.shape}, not ({n},): pass one height a row")
     finite = np.isfinite(heights)
@@ -267,10 +264,10 @@ def _as_heights(z: npt.ArrayLike, n: int) -> FloatArray:
 
 def _as_columns(columns: object, n: int) -> Mapping[str, Column]:
     if not isinstance(columns, Mapping):
-        raise InputError(f"columns is {columns!r:.60}, not a mapping: pass {{name: values}}")
+        raise InputError(f"columns is {shown(columns)}, not a mapping: pass {{name: values}}")
     for name in columns:
         if not isinstance(name, str):
-            raise InputError(f"columns: the name {name!r:.60} is not text: pass names of type str")
+            raise InputError(f"columns: the name {shown(name)} is not text: pass names of type str")
     return MappingProxyType({name: _as_column(name, each, n) for name, each in columns.items()})
 
 
@@ -278,22 +275,26 @@ def _as_column(name: str, values: npt.ArrayLike, n: int) -> Column:
     try:
         column = np.array(values)
     except (ValueError, TypeError, OverflowError):
-        raise InputError(f"column {name!r} is not one value a row: pass a flat list") from None
+        raise InputError(f"column {shown(name)} is not one value a row: pass a flat list") from None
     if column.shape != (n,):
         raise InputError(
-            f"column {name!r}: the shape is {column.shape}, not ({n},): pass one value a row"
+            f"column {shown(name)}: the shape is {column.shape}, not ({n},): pass one value a row"
         )
     text = column.dtype.kind == "O" and set(map(type, column.tolist())) <= {str}
     if not text and column.dtype.kind not in "biufcSUmM":
-        raise InputError(f"column {name!r} holds Python objects: convert it to numbers or text")
+        raise InputError(
+            f"column {shown(name)} holds Python objects: convert it to numbers or text"
+        )
     return read_only(column)
 
 
-def _as_crs(crs: object) -> str | None:
+def as_crs(crs: object) -> str | None:
+    """Return a CRS that is text, or None."""
     if crs is None or (isinstance(crs, str) and crs.strip()):
         return crs
-    advice = f"EPSG:{crs}" if isinstance(crs, int) else "EPSG:4326"
-    raise InputError(f"crs is {crs!r:.60}, not text: write it as crs={advice!r}")
+    is_code = isinstance(crs, int) and 0 < crs < 10**6
+    advice = f"EPSG:{crs}" if is_code else "EPSG:4326"
+    raise InputError(f"crs is {shown(crs)}, not text: write it as crs={advice!r}")
 
 
 def _as_names(names: object) -> tuple[str, str]:
@@ -302,4 +303,4 @@ def _as_names(names: object) -> tuple[str, str]:
             pass
         case [str(x), str(y)] if x != y:
             return x, y
-    raise InputError(f"names is {names!r:.60}: pass two different names, such as ('x', 'y')")
+    raise InputError(f"names is {shown(names)}: pass two different names, such as ('x', 'y')")

@@ -17,10 +17,9 @@ from crustline.arrays import FloatArray, IntArray, as_edges
 from crustline.certify import Certificate, certify
 from crustline.curves import Curves, trace
 from crustline.delaunay import Delaunay, as_delaunay, points_and_how
-from crustline.errors import InputError
 from crustline.interpolant import local_feature_size
 from crustline.medial_axis import MedialAxis, medial_axis
-from crustline.methods import METHODS, check_parameters, crust
+from crustline.methods import as_method, crust, name_of
 from crustline.points import Points
 
 if TYPE_CHECKING:
@@ -84,9 +83,8 @@ class Reconstruction:
         method: Callable[..., npt.ArrayLike] = crust,
         **parameters: Any,
     ) -> None:
-        self.method = _as_method(method)
+        self.method: Callable[..., npt.ArrayLike] = as_method(method, parameters)
         self.parameters: Mapping[str, Any] = MappingProxyType(parameters)
-        check_parameters(method, parameters, self._name, "pass {}=…")
         self.points: Points = points_and_how(points)[0]
         self._given = points if isinstance(points, Delaunay) else self.points
 
@@ -155,25 +153,13 @@ class Reconstruction:
 
     def __repr__(self) -> str:
         count = len(self.points)
-        return f"<Reconstruction: {count:,} point{'s' * (count != 1)} by {self._name}>"
-
-    @property
-    def _name(self) -> str:
-        return getattr(self.method, "__name__", type(self.method).__name__)
+        return f"<Reconstruction: {count:,} point{'s' * (count != 1)} by {name_of(self.method)}>"
 
 
 def _rebuild(
     points: Points | Delaunay, method: Callable[..., npt.ArrayLike], parameters: dict[str, Any]
 ) -> Reconstruction:
     return Reconstruction(points, method, **parameters)
-
-
-def _as_method(method: object) -> Callable[..., npt.ArrayLike]:
-    if callable(method):
-        return method
-    name = method.replace("_", "-") if isinstance(method, str) else ""
-    function = METHODS.get(name, crust).__name__
-    raise InputError(f"method is {method!r:.60}, not a function: write method=cl.{function}")
 
 
 def as_reconstruction(points: npt.ArrayLike | Delaunay | Reconstruction) -> Reconstruction:

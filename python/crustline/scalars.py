@@ -8,13 +8,15 @@ from numbers import Integral, Real
 
 import numpy as np
 
-from crustline.errors import InputError
+from crustline.errors import InputError, shown
 
 __all__ = [
     "LARGEST",
+    "MOST_POINTS",
     "SMALLEST",
     "as_choice",
     "as_degrees",
+    "as_flag",
     "as_length",
     "as_positive",
     "as_real",
@@ -26,6 +28,8 @@ __all__ = [
 
 #: Sizes of smooth curves: for others the cubes of speeds, and more, leave the range of float64.
 SMALLEST, LARGEST = 1e-60, 1e60
+#: Points that a function makes on demand, at the most: they need a few gigabytes.
+MOST_POINTS = 10**8
 
 
 def as_real(
@@ -84,11 +88,18 @@ def as_whole(name: str, value: object, low: int, high: int | None = None) -> int
     raise _refusal(name, f"a whole number {span}", value)
 
 
+def as_flag(name: str, value: object) -> bool:
+    """Return True or False."""
+    if isinstance(value, bool | np.bool_):
+        return bool(value)
+    raise _refusal(name, "True or False", value)
+
+
 def as_choice(name: str, value: object, choices: Sequence[str]) -> str:
     """Return a word that is one of the choices."""
     if isinstance(value, str) and value in choices:
         return value
-    raise InputError(f"{name} must be {' or '.join(map(repr, choices))}, not {value!r:.60}")
+    raise InputError(f"{name} must be {' or '.join(map(repr, choices))}, not {shown(value)}")
 
 
 def _as_float(value: object) -> float:
@@ -102,5 +113,6 @@ def _as_float(value: object) -> float:
 
 
 def _refusal(name: str, wanted: str, value: object) -> InputError:
-    shown = str(value) if isinstance(value, Real) else repr(value)
-    return InputError(f"{name} must be {wanted}, not {shown[:60]}")
+    # NumPy's numbers are shown as Python's.
+    plain = value.item() if isinstance(value, np.generic) else value
+    return InputError(f"{name} must be {wanted}, not {shown(plain)}")

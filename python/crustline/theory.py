@@ -16,13 +16,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import cache, wraps
+from inspect import signature
 from typing import Any, Protocol, TypeAlias, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from crustline.errors import InputError
-from crustline.scalars import as_positive
+from crustline.arrays import as_floats
+from crustline.errors import InputError, shown
+from crustline.scalars import as_positive, as_real
 
 __all__ = [
     "BETA",
@@ -65,9 +67,12 @@ def _defined_on(name: str, low: float, high: float) -> Callable[[Callable[[Any],
     """Return a decorator that makes a formula in NumPy a `Bound` on the values in [low, high]."""
 
     def decorate(formula: Callable[[Any], Any]) -> Bound:
+        parameters = signature(formula)
+
         @wraps(formula)
-        def bound(value: Any) -> Any:
-            values = np.asarray(value, np.float64)
+        def bound(*given: Any, **named: Any) -> Any:
+            (value,) = parameters.bind(*given, **named).arguments.values()
+            values = as_floats(name, value)
             outside = ~((values >= low) & (values <= high))
             if outside.any():
                 raise InputError(
@@ -251,10 +256,11 @@ def spacing_for_error(distance: float, feature_size: ArrayLike) -> Floats:
     [0.2, 0.4, 0.01]
     """
     distance = as_positive("distance", distance)
-    sizes = np.asarray(feature_size, np.float64)
+    sizes = as_floats("feature_size", feature_size)
     if not np.all(sizes >= 0):
         raise InputError(f"feature_size must be 0 or more, got {sizes[~(sizes >= 0)].flat[0]}")
-    return np.minimum(np.sqrt(2 * distance * sizes), sizes)
+    with np.errstate(over="ignore"):
+        return np.minimum(np.sqrt(2 * distance * sizes), sizes)
 
 
 # --- The crust: Theorems 14 and 15 --------------------------------------------------------------
@@ -470,12 +476,13 @@ def _last(holds: Callable[[float], bool], low: float, high: float) -> float:
 
 def _name(method: Method) -> str:
     """Return the name of a method given by its name or as the function itself."""
-    name = method if isinstance(method, str) else getattr(method, "__name__", repr(method))
+    name = method if isinstance(method, str) else getattr(method, "__name__", shown(method))
     return name.replace("-", "_")
 
 
 def _unknown(method: Method, known: str) -> InputError:
-    return InputError(f"the paper proves nothing of this kind for {_name(method)}: ask for {known}")
+    name = shown(method) if isinstance(method, str) else _name(method)[:60]
+    return InputError(f"the paper proves nothing of this kind for {name}: ask for {known}")
 
 
 def containing_r(method: Method, beta: float = BETA) -> float:
@@ -517,7 +524,7 @@ def containing_r(method: Method, beta: float = BETA) -> float:
         case "crust" | "one_step_crust":
             return _crust_containing_r()
         case "beta_skeleton":
-            return _skeleton_containing_r(phi(beta))
+            return _skeleton_containing_r(phi(as_real("beta", beta)))
         case "gabriel":
             return _skeleton_containing_r(math.pi / 2)
     raise _unknown(method, "delaunay, crust, one_step_crust, beta_skeleton or gabriel")
@@ -556,7 +563,7 @@ def excluding_r(method: Method, beta: float = BETA) -> float:
         case "crust":
             return _crust_excluding_r()
         case "beta_skeleton":
-            return _skeleton_excluding_r(phi(beta))
+            return _skeleton_excluding_r(phi(as_real("beta", beta)))
     raise _unknown(method, "crust or beta_skeleton")
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from crustline.errors import FormatError, InputError
+from crustline.errors import FormatError, InputError, shown
 from crustline.formats.dxf import DXF
 from crustline.formats.excel import EXCEL
 from crustline.formats.format import Format, Option
@@ -91,7 +91,7 @@ def format_of_target(target: Target, name: str | None, task: str) -> Format:
         return claimed[0]
     suffixes = ", ".join(suffixes_for(task))
     raise InputError(
-        f"no format is known for the output {target.name!r}: name it {suffixes}, "
+        f"no format is known for the output {shown(target.name)}: name it {suffixes}, "
         f"or choose one of {_names(task)}"
     )
 
@@ -101,10 +101,10 @@ def _claiming(suffix: str, task: str) -> list[Format]:
 
 
 def _named(name: str, task: str) -> Format:
-    if name not in FORMATS or not FORMATS[name].can(task):
+    if not isinstance(name, str) or name not in FORMATS or not FORMATS[name].can(task):
         verb = task.split("_")[0]
         raise InputError(
-            f"nobody knows how to {verb} the format {name!r}: choose one of {_names(task)}"
+            f"nobody knows how to {verb} the format {shown(name)}: choose one of {_names(task)}"
         )
     return FORMATS[name]
 

@@ -38,7 +38,7 @@ from importlib.util import find_spec
 from inspect import signature
 from typing import TYPE_CHECKING, Any
 
-from crustline.errors import InputError, missing_extra
+from crustline.errors import InputError, missing_extra, shown
 
 if TYPE_CHECKING:
     from crustline.curves import Curves
@@ -89,7 +89,7 @@ class Option:
         except InputError:
             raise
         except ValueError as error:
-            raise InputError(f"{self.name} ({self.spelling}) is {value!r:.60}: {error}") from None
+            raise InputError(f"{self.name} ({self.spelling}) is {shown(value)}: {error}") from None
 
 
 @dataclass(frozen=True)
@@ -162,7 +162,7 @@ class Format:
             if name not in known:
                 has = f"it has {', '.join(known)}" if known else "it has none"
                 verb = task.split("_")[0]
-                raise InputError(f"{self.title} has no option {name!r} to {verb} by: {has}")
+                raise InputError(f"{self.title} has no option {shown(name)} to {verb} by: {has}")
         return {name: known[name].check(value) for name, value in given.items()}
 
     def require(self) -> None:

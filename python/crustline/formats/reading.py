@@ -11,7 +11,7 @@ from crustline.formats.format import Layer
 from crustline.formats.packed import member, unpacked
 from crustline.formats.signatures import known_archive
 from crustline.formats.source import Source
-from crustline.points import Points
+from crustline.points import Points, as_crs
 
 if TYPE_CHECKING:
     from crustline.curves import Curves
@@ -173,5 +173,5 @@ def _opened(path: Any) -> Source:
 
 
 def _with_crs(points: Points, crs: str | None) -> Points:
-    name = points.crs if crs is None else crs
-    return points if name is None else points.replace(crs=normalize_crs(str(name)))
+    name = points.crs if crs is None else as_crs(crs)
+    return points if name is None else points.replace(crs=normalize_crs(name))

@@ -15,7 +15,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from crustline.errors import CrustlineError, FormatError, FormatWarning, InputError
+from crustline.errors import CrustlineError, FormatError, FormatWarning, InputError, shown
 
 __all__ = ["HEAD", "Source"]
 
@@ -208,12 +208,20 @@ def _chunks_of(given: Any) -> Iterator[bytes]:
     for chunk in _reads(given) if hasattr(given, "read") else given:
         if not isinstance(chunk, bytes | bytearray | memoryview | str):
             raise InputError(f"a piece to read is {chunk!r:.60}, not bytes: give a path or bytes")
-        yield chunk.encode() if isinstance(chunk, str) else bytes(chunk)
+        yield _as_bytes(chunk)
+
+
+def _as_bytes(chunk: Any) -> bytes:
+    if isinstance(chunk, bytes | bytearray | memoryview):
+        return bytes(chunk)
+    if isinstance(chunk, str):
+        return chunk.encode()
+    raise InputError(f"path gives {shown(chunk)} in place of bytes: open the file in binary mode")
 
 
 def _check_iterable(given: Any) -> None:
     if isinstance(given, Mapping) or not isinstance(given, Iterable):
-        raise InputError(f"{given!r:.60} cannot be read: give a path, bytes, or a file-like object")
+        raise InputError(f"path is {shown(given)}: give a path, bytes, or a file-like object")
 
 
 def _reads(file: Any) -> Iterator[Any]:

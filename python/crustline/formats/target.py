@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from crustline.errors import FormatError
+from crustline.errors import FormatError, InputError, shown
 from crustline.formats.source import reason_of, refuse_null
 
 __all__ = ["Target", "check_writable"]
@@ -34,6 +34,9 @@ class Target:
     given: Any
 
     def __post_init__(self) -> None:
+        is_file = hasattr(self.given, "write") and hasattr(self.given, "flush")
+        if not (is_file or isinstance(self.given, str | os.PathLike)):
+            raise InputError(f"path is {shown(self.given)}: give a file name, or an open file")
         refuse_null(self.given)
 
     @property

@@ -21,7 +21,7 @@ from crustline.methods.neighborhoods import (
     gamma_graph,
     relative_neighborhood,
 )
-from crustline.methods.parameters import check_parameters, parameters_of
+from crustline.methods.parameters import as_method, check_parameters, name_of, parameters_of
 from crustline.methods.spanning_tree import minimum_spanning_tree
 from crustline.methods.voronoi_cells import conservative_crust, gathan
 
@@ -59,6 +59,7 @@ __all__ = [
     "Method",
     "a_shape",
     "alpha_shape",
+    "as_method",
     "as_selected",
     "beta_skeleton",
     "by_group",
@@ -74,6 +75,7 @@ __all__ = [
     "gathan",
     "hnn_crust",
     "minimum_spanning_tree",
+    "name_of",
     "nn_crust",
     "one_step_crust",
     "parameters_of",

@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike
 
 from crustline import _core
 from crustline.arrays import FloatArray, IntArray, as_edges
-from crustline.delaunay import Delaunay, How, Made, Progress, points_and_how
+from crustline.delaunay import Delaunay, How, Made, Progress, as_threads, points_and_how
 from crustline.errors import InputError
 from crustline.methods.connect import connect
-from crustline.scalars import as_whole
+from crustline.methods.parameters import as_method
 
 
 def by_group(
@@ -70,7 +70,8 @@ def by_group(
     [[0, 1], [0, 3], [1, 2], [2, 3], [4, 5], [4, 7], [5, 6], [6, 7]]
     """
     carried, how = points_and_how(points)
-    threads = how[0] if threads is None else as_whole("threads", threads, 1)
+    as_method(method, parameters)
+    threads = how[0] if threads is None else as_threads(threads)
     rows, ends = _split(groups, len(carried))
     at_once = _Groups(carried.xy, rows, ends, (threads, how[1] if progress is None else progress))
     if getattr(method, "__module__", "").startswith("crustline."):
@@ -87,7 +88,10 @@ def by_group(
 
 def _split(groups: ArrayLike, count: int) -> tuple[IntArray, IntArray]:
     """Return the rows of the groups one after another, and where each group ends."""
-    labels = np.asarray(groups)
+    try:
+        labels = np.asarray(groups)
+    except (ValueError, TypeError, OverflowError):
+        raise InputError("groups: the labels are no flat list: pass one label a point") from None
     if labels.shape != (count,):
         raise InputError(
             f"groups: the shape is {labels.shape}, not ({count},): pass one label a point"

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from crustline.arrays import FloatArray
-from crustline.errors import InputError
+from crustline.arrays import FloatArray, as_floats
+from crustline.errors import InputError, shown
 from crustline.scalars import LARGEST, as_real, as_rtol, as_size
 
 if TYPE_CHECKING:
@@ -114,7 +114,7 @@ class SmoothCurve:
         -------
         point, velocity, acceleration : ndarray of float64, shape (..., 2)
         """
-        t = np.asarray(t, dtype=np.float64)
+        t = as_floats("t", t)
         if not np.isfinite(t).all():
             raise InputError(f"t must be finite, not {t[~np.isfinite(t)].flat[0]}")
         place = (t.ravel() % 1.0) * len(self.loops)
@@ -224,7 +224,9 @@ class SmoothCurve:
         [0.5, 1.0]
         """
         points = self.point(t)
-        return self.medial_axis(rtol=rtol).distance(points).reshape(points.shape[:-1])
+        return (
+            self.medial_axis(rtol=rtol).distance(points.reshape(-1, 2)).reshape(points.shape[:-1])
+        )
 
 
 def union(*curves: SmoothCurve) -> SmoothCurve:
@@ -236,10 +238,15 @@ def union(*curves: SmoothCurve) -> SmoothCurve:
     >>> union(circle(3), circle(1), circle(1).moved(offset=(5, 0)))
     SmoothCurve(3 loops)
     """
-    for i, curve in enumerate(curves):
-        if not isinstance(curve, SmoothCurve):
-            raise InputError(f"curve {i} is {curve!r:.60}, not a SmoothCurve")
-    return SmoothCurve(tuple(loop for curve in curves for loop in curve.loops))
+    smooth = (as_curve(curve) for curve in curves)
+    return SmoothCurve(tuple(loop for curve in smooth for loop in curve.loops))
+
+
+def as_curve(curve: object) -> SmoothCurve:
+    """Return a known smooth curve as it is, or an `InputError` for anything else."""
+    if isinstance(curve, SmoothCurve):
+        return curve
+    raise InputError(f"curve is {shown(curve)}, not a SmoothCurve: pass one of crustline.shapes")
 
 
 def refuse_extent(points: FloatArray) -> None:
@@ -259,13 +266,10 @@ def refuse_extent(points: FloatArray) -> None:
 
 
 def _as_offset(offset: npt.ArrayLike) -> FloatArray:
-    try:
-        shift = np.asarray(offset, dtype=np.float64)
-    except (ValueError, TypeError, OverflowError):
-        shift = np.array(np.nan)
+    shift = as_floats("offset", offset)
     if shift.shape != (2,) or not (np.abs(shift) <= LARGEST).all():
         raise InputError(
-            f"offset must be a pair of numbers no larger than {LARGEST:g}, not {offset!r:.60}"
+            f"offset must be a pair of numbers no larger than {LARGEST:g}, not {shown(offset)}"
         )
     return shift
 

@@ -7,14 +7,14 @@ import math
 import numpy as np
 
 from crustline.arrays import FloatArray
-from crustline.scalars import as_positive, as_whole
+from crustline.scalars import MOST_POINTS, as_positive, as_whole
 from crustline.shapes.bezier import bezier_loop
 from crustline.shapes.curve import SmoothCurve
 
 
 def regular_polygon(n: int, radius: float = 1.0) -> FloatArray:
     """Return the vertices of a regular polygon, counter-clockwise from (radius, 0), (n, 2)."""
-    n, radius = as_whole("n", n, 0), as_positive("radius", radius)
+    n, radius = as_whole("n", n, 0, MOST_POINTS), as_positive("radius", radius)
     angle = 2 * math.pi * np.arange(n) / n
     return radius * np.stack([np.cos(angle), np.sin(angle)], -1)
 
@@ -27,8 +27,9 @@ def lattice(n: int, m: int | None = None) -> FloatArray:
     >>> lattice(2, 3).tolist()
     [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [0.0, 2.0], [1.0, 2.0]]
     """
-    n = as_whole("n", n, 0)
-    m = n if m is None else as_whole("m", m, 0)
+    n = as_whole("n", n, 0, MOST_POINTS)
+    m = n if m is None else as_whole("m", m, 0, MOST_POINTS)
+    as_whole("n · m", n * m, 0, MOST_POINTS)
     y, x = np.divmod(np.arange(n * m), max(n, 1))
     return np.stack([x, y], -1).astype(np.float64)
 

@@ -9,7 +9,7 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
-from crustline.arrays import BoolArray, FloatArray, IntArray
+from crustline.arrays import BoolArray, FloatArray, IntArray, as_points
 from crustline.errors import InputError
 from crustline.shapes.contacts import Nodes, contact_grid, refined
 from crustline.shapes.curve import SmoothCurve, refuse_extent
@@ -51,7 +51,7 @@ class CurveMedialAxis:
 
     def distance(self, points: npt.ArrayLike) -> FloatArray:
         """Return the distance from each of points (k, 2) to the axis, shape (k,)."""
-        p = np.asarray(points, dtype=np.float64).reshape(-1, 2)
+        p = as_points(points)
         distance, vertex = nearest_site(p, self.vertices)
         for column in range(2):
             # A vertex begins at most one segment and ends at most one: the two that its walk along

@@ -22,6 +22,15 @@ def nearest_site(queries: FloatArray, sites: FloatArray) -> tuple[FloatArray, In
     Exact up to rounding; of equally near sites, one. Sites are put into boxes, and so are queries:
     those of one box regard only the boxes of sites that may hold the nearest one.
     """
+    # Squares of distances beyond 1e154 are infinite: one site is as near as another then.
+    with np.errstate(over="ignore"):
+        distance, row = _nearest_site(queries, sites)
+    far = np.isinf(distance)
+    distance[far] = np.hypot(*(queries[far] - sites[row[far]]).T)
+    return distance, row
+
+
+def _nearest_site(queries: FloatArray, sites: FloatArray) -> tuple[FloatArray, IntArray]:
     boxes = _boxes(sites, SITES_PER_BOX)
     low, high = _corners(sites, boxes)
     distance, row = np.empty(len(queries)), np.empty(len(queries), dtype=np.int64)

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from crustline.arrays import FloatArray, as_points
 from crustline.errors import InputError
 from crustline.scalars import as_positive, as_rtol
-from crustline.shapes.curve import SmoothCurve
+from crustline.shapes.curve import SmoothCurve, as_curve
 from crustline.shapes.nearest import nearest_site
 
 Allowance = Callable[[FloatArray], FloatArray]
@@ -83,7 +83,7 @@ def supremum(
     curve: SmoothCurve, sites: FloatArray, allowance: Allowance, lipschitz: float, rtol: float
 ) -> float:
     """Return the supremum of dist(p, sites) / allowance(LFS(p)), or 1 + rtol times it."""
-    axis = curve.medial_axis(rtol=min(rtol, 1e-4))
+    axis = as_curve(curve).medial_axis(rtol=min(rtol, 1e-4))
 
     def measured(t: FloatArray) -> FloatArray:
         p = curve.point(t)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 import numpy as np
 import numpy.typing as npt
 
 from crustline.arrays import FloatArray, IntArray
 from crustline.errors import InputError
-from crustline.scalars import as_positive, as_share, as_whole
+from crustline.scalars import as_choice, as_positive, as_share, as_whole
 from crustline.shapes.curve import SmoothCurve
 from crustline.shapes.ratio import Allowance, supremum
 from crustline.shapes.walk import Walk, tables
@@ -171,8 +171,7 @@ def _sample(
     curve: SmoothCurve, allowance: Allowance, r: float, seed: int | None, mode: Mode
 ) -> Sample:
     """Return a sample with a point within allowance(LFS(p)), r-Lipschitz, of each p."""
-    if mode not in ("sparsest", "random"):
-        raise InputError(f'mode must be "sparsest" or "random", not {mode!r}')
+    as_choice("mode", mode, get_args(Mode))
     seed = None if seed is None else as_whole("seed", seed, 0)
     walks = [Walk(table) for table in tables(curve, allowance)]
     share = 1 - MARGIN

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from crustline.arrays import FloatArray
-from crustline.errors import FormatError, InputError, missing_extra
+from crustline.errors import FormatError, InputError, missing_extra, shown
 from crustline.scalars import as_real
 from crustline.shapes.bezier import bezier_loop, smoothed
 from crustline.shapes.curve import SmoothCurve
@@ -68,7 +68,7 @@ def _svg_subpaths(source: str | os.PathLike[str]) -> Iterable[FloatArray]:
     except ImportError:
         raise missing_extra("svg", "svgelements") from None
     if not isinstance(source, str | os.PathLike):
-        raise InputError(f"source is {source!r:.60}: give the name of a .svg file, or a path's d")
+        raise InputError(f"source is {shown(source)}: give the name of a .svg file, or a path's d")
     name = os.fspath(source)
     if name.lower().endswith(".svg"):
         paths = _paths_of_file(svgelements, name)
@@ -101,7 +101,7 @@ def _paths_of_file(svg: Any, name: str) -> list[Any]:
     except ElementTree.ParseError as error:
         raise FormatError(f"{name} is no SVG: {error}") from None
     if root.tag.rpartition("}")[2] != "svg":
-        raise FormatError(f"{name} is no SVG: its outermost element is {root.tag!r:.60}")
+        raise FormatError(f"{name} is no SVG: its outermost element is {shown(root.tag)}")
     box = root.attrib.pop("viewBox", "").replace(",", " ").split()
     if len(box) == 4:
         # A drawing as large as its viewBox is neither scaled nor, from 0 on, shifted.

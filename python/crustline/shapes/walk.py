@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from crustline.arrays import FloatArray, IntArray
 from crustline.errors import InputError
-from crustline.shapes.curve import SmoothCurve
+from crustline.shapes.curve import SmoothCurve, as_curve
 from crustline.shapes.ratio import Allowance
 
 # Random steps are at least this share of the longest step.
@@ -25,7 +25,7 @@ T, X, Y, VX, VY, A = range(6)
 
 def tables(curve: SmoothCurve, allowance: Allowance) -> list[FloatArray]:
     """Return for each loop rows (k, 6) so close that they can be interpolated; it closes."""
-    axis, c = curve.medial_axis(), len(curve.loops)
+    axis, c = as_curve(curve).medial_axis(), len(curve.loops)
 
     def rows(i: int, u: FloatArray) -> FloatArray:
         p, velocity, _ = curve.derivatives((i + u % 1.0) / c)

@@ -23,8 +23,8 @@ import numpy as np
 
 from crustline.arrays import FloatArray, IntArray
 from crustline.curves import Curve, Curves
-from crustline.errors import InputError, missing_extra
-from crustline.scalars import as_degrees
+from crustline.errors import InputError, missing_extra, shown
+from crustline.scalars import as_choice, as_degrees
 from crustline.smooth.cubics import Run
 from crustline.smooth.spline import Spline
 from crustline.smooth.splines import Splines
@@ -101,10 +101,9 @@ def smooth(
     """
     _require_scipy()
     angle = math.radians(as_degrees("corner_angle", corner_angle))
-    if ends not in get_args(Ends):
-        raise InputError(f"ends is {ends!r}: choose one of {', '.join(get_args(Ends))}")
+    as_choice("ends", ends, get_args(Ends))
     if not isinstance(curves, Curves):
-        raise InputError(f"curves is {curves!r:.60}: pass what trace or reconstruct returns")
+        raise InputError(f"curves is {shown(curves)}: pass what trace or reconstruct returns")
     splines = (_spline(_line(curve, angle), ends == "natural") for curve in curves)
     return Splines(curves, tuple(splines))
 

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from crustline.arrays import FloatArray, IntArray
+from crustline.arrays import FloatArray, IntArray, as_floats
 from crustline.errors import InputError
-from crustline.scalars import as_positive, as_whole
+from crustline.scalars import MOST_POINTS, as_positive, as_whole
 from crustline.smooth.beziers import BezierPath, fewest_pieces
 
 if TYPE_CHECKING:
@@ -134,7 +134,7 @@ class Spline:
         if tolerance is not None:
             return self.point(self._flat(as_positive("tolerance", tolerance)))
         least = 1 if self.closed else 2
-        number = as_whole("count", count, least)
+        number = as_whole("count", count, least, MOST_POINTS)
         return self.point(np.linspace(0, 1, number, endpoint=not self.closed))
 
     def beziers(self, tolerance: float | None = None) -> FloatArray:
@@ -142,7 +142,7 @@ class Spline:
         return bezier_pieces([self], tolerance)[0]
 
     def _evaluate(self, t: npt.ArrayLike, order: int) -> FloatArray:
-        place = np.asarray(t, dtype=np.float64)
+        place = as_floats("t", t)
         fine = np.isfinite(place) if self.closed else (place >= 0) & (place <= 1)
         if not np.all(fine):
             domain = "a finite number" if self.closed else "in [0, 1]"
@@ -159,7 +159,13 @@ class Spline:
         )
         bend = 2 * np.hypot(bends[..., 0], bends[..., 1]).max(axis=0)
         limit = np.ldexp(tolerance, -self._exponent)
-        parts = np.maximum(1, np.ceil(widths * np.sqrt(bend / (8 * limit)))).astype(np.int64)
+        with np.errstate(over="ignore", divide="ignore"):
+            steps = np.maximum(1, np.ceil(widths * np.sqrt(bend / limit / 8)))
+        if steps.sum() > MOST_POINTS:
+            raise InputError(
+                f"tolerance asks for more than {MOST_POINTS:,} points: choose a larger one"
+            )
+        parts = steps.astype(np.int64)
         number = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
         step = np.repeat(widths / parts, parts)
         t = np.repeat(self._cubic.x[:-1], parts) + number * step

@@ -1,0 +1,121 @@
+"""Whatever a public function is given, it answers, or says in one sentence what does not fit."""
+
+from __future__ import annotations
+
+import faulthandler
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+
+import crustline as cl
+import hostile
+from crustline import shapes
+from hostile import Call
+
+#: A call that takes longer is shown where it is, and the run ends.
+HANGS = 120
+
+
+@pytest.fixture(autouse=True)
+def in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """What is written by a name of any kind goes there."""
+    monkeypatch.chdir(tmp_path)
+    yield
+    faulthandler.cancel_dump_traceback_later()
+
+
+@given(call=hostile.calls())
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
+def test_any_call_is_answered_or_refused_in_a_sentence(call: Call) -> None:
+    faulthandler.dump_traceback_later(HANGS, exit=True)
+    hostile.refusal(call)
+
+
+def test_every_function_answers_what_fits() -> None:
+    """Else the calls above prove nothing."""
+    answered = set()
+    for name, function in hostile.FUNCTIONS.items():
+        for turn in range(40):
+            rng = np.random.default_rng(turn)
+            pools = {
+                each.name: hostile.fitting(name, each.name)
+                for each in hostile.parameters(function).values()
+                if each.default is each.empty
+            }
+            given = {key: pool[rng.integers(len(pool))] for key, pool in pools.items()}
+            if hostile.refusal(Call(name, function, given)) is None:
+                answered.add(name)
+                break
+    needs_one_of_two = {"Spline.sample"}
+    assert answered == set(hostile.FUNCTIONS) - needs_one_of_two
+
+
+itself: list[Any] = []
+itself.extend([itself, itself])
+
+# What once ended otherwise.
+REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
+    "a number in an array": (lambda: cl.crust(np.array(5.0)), r"points: array\(5\.\) is not"),
+    "a list of itself": (lambda: cl.crust(itself), "points: row 0"),
+    "a method by its name": (
+        lambda: cl.reconstruct([], method="crust"),  # type: ignore[arg-type]
+        "method is 'crust', not a function: write method=cl.crust",
+    ),
+    "a code as CRS": (
+        lambda: cl.Points([], crs=4326),  # type: ignore[arg-type]
+        "crs is 4326, not text: write it as crs='EPSG:4326'",
+    ),
+    "a code as CRS of a file": (
+        lambda: cl.read(b"x,y\n1,2\n", crs=4326),  # type: ignore[arg-type]
+        "crs is 4326, not text: write it as crs='EPSG:4326'",
+    ),
+    "one name for two coordinates": (
+        lambda: cl.Points([], names=["a"]),
+        r"names is \['a'\]: pass two different names",
+    ),
+    "heights that are complex": (lambda: cl.Points([(0, 0)], z=[1j]), "z must be a number"),
+    "a curve that is none": (lambda: cl.r_sample(3, 0.5), "curve is 3, not a SmoothCurve"),  # type: ignore[arg-type]
+    "a choice that is an array": (
+        lambda: cl.r_sample(shapes.circle(), 0.5, mode=np.zeros(2)),  # type: ignore[arg-type]
+        "mode must be 'sparsest' or 'random', not array",
+    ),
+    "a parameter in lines": (
+        lambda: cl.beta_skeleton([], np.eye(3)),  # type: ignore[arg-type]
+        r"beta must be positive and finite, not array\(\[\[1\., 0\., 0\.\], \[",
+    ),
+    "a place that is text": (lambda: shapes.circle().point("a"), "t must be a number"),
+    "a place beyond floats": (lambda: shapes.circle().point(10**400), "t must be a number"),
+    "more points than there is room for": (
+        lambda: shapes.lattice(2**40), "n must be a whole number from 0 to 100000000"
+    ),
+    "a tolerance too small": (
+        lambda: cl.smooth(cl.reconstruct(hostile.RING))[0].sample(tolerance=1e-300),
+        "tolerance asks for more than 100,000,000 points",
+    ),
+    "rows that are none": (lambda: cl.Points([(0, 0)]).select([1]), "rows: 1 is none of the 1"),
+    "a path that is a number": (lambda: cl.read(5), "path is 5: give a path"),
+    "a target that is a number": (lambda: cl.Points([]).write(5), "path is 5: give a file name"),  # type: ignore[arg-type]
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_refused(name: str) -> None:
+    call, words = REFUSED[name]
+    with pytest.raises(cl.CrustlineError, match=words) as caught:
+        call()
+    assert "\n" not in str(caught.value)
+
+
+def test_unaligned_points_are_copied() -> None:
+    points = hostile.unaligned(hostile.RING)
+    assert not points.flags.aligned
+    assert np.array_equal(cl.crust(points), cl.crust(hostile.RING))
+
+
+def test_far_samples_have_their_true_distance() -> None:
+    ratio = cl.sampling_ratio(shapes.circle(), [(1e300, 0)])
+    assert ratio == pytest.approx(1e300, rel=1e-3)
