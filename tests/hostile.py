@@ -292,7 +292,7 @@ def parameters(function: Callable[..., Any]) -> dict[str, inspect.Parameter]:
 
 def fitting(name: str, parameter: str) -> list[Make]:
     """What fits a parameter of a function."""
-    if name == "crustline.read" and parameter == "path":
+    if name in ("crustline.read", "crustline.read_curves") and parameter == "path":
         return FILES
     return FITTING.get(parameter, NUMBERS)
 

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from crustline.errors import InputError, missing_extra
-from crustline.points import Points
+from crustline.delaunay import Delaunay, points_and_how
+from crustline.errors import InputError, missing_extra, shown
+from crustline.points import Points, as_crs
 
 __all__ = ["is_geographic", "project", "to_longitude_latitude"]
 
@@ -18,12 +19,12 @@ _LONGITUDE_LATITUDE = "OGC:CRS84"
 _AROUND = 0.1
 
 
-def project(points: Points, crs: str = "auto") -> Points:
+def project(points: ArrayLike | Delaunay, crs: str = "auto") -> Points:
     """Return points in another coordinate reference system, with all that they carry.
 
     Parameters
     ----------
-    points : Points
+    points : Points or Delaunay
         With a CRS.
     crs : str, default "auto"
         Where to: "EPSG:25832" or whatever PROJ knows; or "auto", which leaves planar coordinates as
@@ -51,6 +52,8 @@ def project(points: Points, crs: str = "auto") -> Points:
     >>> bool(abs(across.xy[1, 0] - across.xy[0, 0]) < 107_000)
     True
     """
+    points, _ = points_and_how(points)
+    crs = as_crs(crs) or "auto"
     if points.crs is None:
         raise InputError("the points have no CRS to project from: name it with crs (--crs)")
     source = _crs(points.crs)
@@ -85,7 +88,7 @@ def _crs(name: str) -> Any:
     try:
         return pyproj.CRS.from_user_input(name)
     except pyproj.exceptions.CRSError:
-        raise InputError(f"the CRS {name!r:.60} is unknown: write it as EPSG:25832") from None
+        raise InputError(f"the CRS {shown(name)} is unknown: write it as EPSG:25832") from None
 
 
 def _transformed(points: Points, source: Any, target: Any, name: str) -> Points:

@@ -79,7 +79,9 @@ def format_of_source(source: Source, name: str | None, task: str = "read") -> Fo
     what = foreign(source.head)
     if what is not None:
         raise FormatError(f"{source.name} is {what}")
-    return claimed[0] if claimed else XYZ
+    if claimed or XYZ.can(task):
+        return claimed[0] if claimed else XYZ
+    raise InputError(f"{source.name} is in no format of curves: use one of {_names(task)}")
 
 
 def format_of_target(target: Target, name: str | None, task: str) -> Format:
