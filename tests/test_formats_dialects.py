@@ -261,3 +261,47 @@ def test_a_hundred_thousand_columns_are_read() -> None:
     row = ",".join(["1"] * 100_002)
     points = read_text(f"{names}\n{row}\n{row}\n")
     assert (len(points), len(points.columns)) == (2, 100_000)
+
+
+def test_a_column_of_well_known_text_gives_its_vertices() -> None:
+    text = 'id,wkt,name\n7,POINT (1 2),a\n8,"LINESTRING (3 4, 5 6)",b\n9,,c\n'
+    points = read_text(text)
+    assert points.xy.tolist() == [[1, 2], [3, 4], [5, 6]]
+    assert points.columns["id"].tolist() == [7, 8, 8]
+    assert points.columns["name"].tolist() == ["a", "b", "b"]
+    refused("wkt;name\nPOINT (1 2);a\nPOINT (1 b);b\n", ["line 3", "'1 b'"])
+    assert read_text("wkt;x;y\nPOINT (9 9);1;2\n").xy.tolist() == [[1, 2]]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[[1.5, 2.5], [3.5, 4.5], [5.5, 2.5]]",
+        '[{"x": 1.5, "y": 2.5}, {"x": 3.5, "y": 4.5}, {"x": 5.5, "y": 2.5}]',
+        '{"lon": [1.5, 3.5, 5.5], "lat": [2.5, 4.5, 2.5]}',
+        '{"x": 1.5, "y": 2.5}\n{"x": 3.5, "y": 4.5}\n{"x": 5.5, "y": 2.5}\n',
+        "[1.5, 2.5]\n[3.5, 4.5]\n[5.5, 2.5]\n",
+        '{"type":"Point","coordinates":[1.5,2.5]}\n'
+        '{"type":"LineString","coordinates":[[3.5,4.5],[5.5,2.5]]}\n',
+    ],
+)
+def test_json_that_is_no_geojson(text: str) -> None:
+    assert read_text(text).xy.tolist() == TRIANGLE
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("[[1, 2], [3]]", ["row 1", "[3]"]),
+        ('[{"x": 1, "y": 2}, {"x": 3}]', ["row 1", "'y'", "None"]),
+        ('{"x": [1, 2], "y": [3]}', ["'y' has 1 values", "'x' 2"]),
+        ('{"a": 1}', ["neither GeoJSON", "nor rows"]),
+        ('[1, "a"]', ["neither GeoJSON", "nor rows"]),
+        ('{"x": 1, "y": 2}\n{"x": 1, "y"}\n', ["line 2"]),
+        ("[[1, 2], [3, NaN]]", ["NaN"]),
+        ("[[1, 2], [3, 1e999]]", ["row 1", "inf"]),
+        ("[" * 100_000, ["too deep"]),
+    ],
+)
+def test_json_that_is_no_points_is_refused(text: str, words: list[str]) -> None:
+    refused(text, words)

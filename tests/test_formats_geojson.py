@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from crustline.curves import trace
-from crustline.errors import FormatError, InputError
+from crustline.errors import FormatError, FormatWarning, InputError
 from crustline.formats import read, write
 from crustline.points import Points
 
@@ -112,14 +112,9 @@ def test_the_crs_is_kept(read_json, name, crs):
         (collection(feature("Point", [1, 2]), feature("Point", [1])), ["feature 1", "[1]"]),
         (collection(feature("Point", [1, "2"])), ["feature 0", "'2'"]),
         (collection(feature("Point", [1, True])), ["feature 0", "True"]),
-        (
-            collection(feature("Point", [1, 2]), feature("Point", [1, 2, 3])),
-            ["feature 1", "height"],
-        ),
         (collection(feature("LineString", [1, 2])), ["feature 0", "1"]),
         (collection(feature("Polygon", [1, 2])), ["feature 0", "1"]),
         (collection(feature("Point", {"x": 1})), ["feature 0"]),
-        (collection(feature("Point", [1, 2, 3, 4])), ["feature 0", "[1, 2, 3, 4]"]),
         (collection(feature("Point", [10**400, 2])), ["too large"]),
         (collection({"type": "Feature", "geometry": 5}), ["feature 0", "5"]),
     ],
@@ -130,6 +125,19 @@ def test_what_does_not_fit_is_named(read_json, document, words):
     for word in ["points.geojson", *words]:
         assert word in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_heights_that_some_positions_lack_are_left_out(read_json):
+    document = collection(feature("Point", [1, 2]), feature("Point", [3, 4, 5]))
+    with pytest.warns(FormatWarning, match="no height"):
+        points = read_json(document)
+    assert (points.xy.tolist(), points.z) == ([[1, 2], [3, 4]], None)
+
+
+def test_measures_are_left_out(read_json):
+    with pytest.warns(FormatWarning, match="beyond x, y and z"):
+        points = read_json(feature("LineString", [[1, 2, 3, 4], [5, 6, 7, 8]]))
+    assert (points.xy.tolist(), points.z.tolist()) == ([[1, 2], [5, 6]], [3, 7])
 
 
 def test_columns_cannot_be_chosen(read_json):

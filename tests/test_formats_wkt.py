@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from crustline.curves import trace
-from crustline.errors import FormatError, InputError
+from crustline.errors import FormatError, FormatWarning, InputError
 from crustline.formats import read, write
 from crustline.points import Points
 
@@ -81,8 +81,7 @@ def test_the_reference_system(read_wkt):
         ("POINT (1 1e999)", ["line 1", "1e999"]),
         ("POINT (1 1_0)", ["line 1", "1_0"]),
         ("POINT (1)", ["line 1", "'1'"]),
-        ("POINT (1 2)\nPOINT (1 2 3)", ["line 2", "height"]),
-        ("POINT (1 2 3 4)", ["line 1"]),
+        ("SRID=" + "1" * 5000 + ";POINT (1 2)", ["line 1", "'SRID'"]),
         ("POINT M (1 2 3)", ["line 1", "measures"]),
         ("POINT ZM (1 2 3 4)", ["measures"]),
         ("POINT (1 2", ["line 1"]),
@@ -102,6 +101,17 @@ def test_what_does_not_fit_is_named(read_wkt, text, words):
     for word in ["points.wkt", *words]:
         assert word in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_heights_that_some_positions_lack_are_left_out(read_wkt):
+    with pytest.warns(FormatWarning, match="no height"):
+        assert read_wkt("POINT (1 2)\nPOINT (1 2 3)").z is None
+
+
+def test_nothing_is_written_and_read(tmp_path):
+    write(Points([]), tmp_path / "none.wkt")
+    assert (tmp_path / "none.wkt").read_text() == "GEOMETRYCOLLECTION EMPTY\n"
+    assert len(read(tmp_path / "none.wkt")) == 0
 
 
 def test_columns_cannot_be_chosen(read_wkt):

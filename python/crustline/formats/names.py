@@ -58,7 +58,8 @@ def find_coordinates(
 
 def find_pair(names: Sequence[str]) -> tuple[int, int] | None:
     """Return the positions of the first known pair of names, as they are or less their padding."""
-    return _pair_among(_lower(names)) or _pair_among([plain_name(name) for name in names])
+    plain = [plain_name(name) for name in names]
+    return _pair_among(list(names)) or _pair_among(_lower(names)) or _pair_among(plain)
 
 
 def _pair_among(spelled: list[str]) -> tuple[int, int] | None:
@@ -102,7 +103,7 @@ def quote_all(names: Sequence[str]) -> str:
 
 
 def _first_of(wanted: Sequence[str], names: Sequence[str]) -> list[int]:
-    for spelled in (_lower(names), [plain_name(name) for name in names]):
+    for spelled in (list(names), _lower(names), [plain_name(name) for name in names]):
         found = [spelled.index(name) for name in wanted if name in spelled]
         if found:
             return found[:1]

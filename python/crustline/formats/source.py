@@ -102,7 +102,7 @@ class Source:
         return content
 
     def text(self, encoding: str | None = None) -> str:
-        """Return all text; by default UTF-8, or UTF-16 with its mark. Lines end with a newline."""
+        """Return all text; by default it is UTF-8, or UTF-16 where that is plain."""
         content = self.content()
         found = encoding or likely_encoding(content)
         try:
@@ -115,7 +115,7 @@ class Source:
         if "\0" in text:
             raise self.error("it holds null characters, and is no text: choose its format")
         self.note("encoding", found)
-        return text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
+        return text
 
     @contextmanager
     def path(self, suffix: str = "") -> Iterator[Path]:

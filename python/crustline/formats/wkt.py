@@ -6,7 +6,7 @@ The grammar is that of OGC Simple Features 1.2.1, section 7, without measures; S
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain
 
@@ -14,13 +14,14 @@ import numpy as np
 
 from crustline.arrays import FloatArray, IntArray
 from crustline.curves import Curves
-from crustline.errors import FormatError, InputError
+from crustline.errors import FormatError
 from crustline.formats.attributes import attributes_of, coordinates_with_height, without_curves
 from crustline.formats.crs import epsg_code
 from crustline.formats.format import Format
-from crustline.formats.options import POLYGONS
+from crustline.formats.options import ENCODING, POLYGONS
 from crustline.formats.source import Source
 from crustline.formats.target import Target
+from crustline.formats.vertices import Vertices
 from crustline.points import Points
 
 # How many parentheses lie around the positions of a geometry, besides the innermost.
@@ -36,7 +37,7 @@ _DEPTHS = {
 }
 _WORDS = {"polygon": "POLYGON", "line": "LINESTRING", "points": "MULTIPOINT"}
 _TOKEN = re.compile(
-    r"\s*(?:(?P<srid>SRID\s*=\s*\d+\s*;)|(?P<word>[A-Z]+)|(?P<leaf>\(\s*(?:[-+.\d]|nan|inf)[^()]*\))"
+    r"\s*(?:(?P<srid>SRID\s*=\s*\d{1,9}\s*;)|(?P<word>[A-Z]+)|(?P<leaf>\(\s*(?:[-+.\d]|nan|inf)[^()]*\))"
     r"|(?P<mark>[(),;])|(?P<end>\Z))",
     re.IGNORECASE,
 )
@@ -46,40 +47,64 @@ _START = re.compile(
 )
 
 
-def read(source: Source) -> Points:
+def read(source: Source, *, encoding: str | None = None) -> Points:
     """Return the vertices of all geometries, without those that close a ring."""
-    parser = _Parser(source.text(), source.name)
+    geometries = parse(source.text(encoding), source)
+    return geometries.vertices.points(geometries.coordinates, crs=geometries.crs)
+
+
+def read_curves(source: Source, *, encoding: str | None = None) -> Curves:
+    """Return the lines and rings of all geometries."""
+    geometries = parse(source.text(encoding), source)
+    points = geometries.vertices.points(geometries.coordinates, crs=geometries.crs)
+    return geometries.vertices.curves(points)
+
+
+@dataclass(frozen=True)
+class Geometries:
+    """The vertices of geometries, how many each of these has, and their CRS."""
+
+    vertices: Vertices
+    coordinates: FloatArray
+    counts: list[int]
+    crs: str | None
+
+
+def parse(text: str, source: Source, lines: Sequence[int] | None = None) -> Geometries:
+    """Return the geometries of text; `lines` are the numbers of its lines, if not 1, 2, 3, …"""
+    parser = _Parser(text, source, lines)
     parser.parse()
-    coordinates = _as_array(parser.leaves, parser)
-    z = coordinates[:, 2] if coordinates.shape[1] == 3 else None
+    vertices = Vertices(source)
+    for leaf in parser.leaves:
+        vertices.add([position.split() for position in leaf.text.split(",")], leaf.line)
     crs = None if parser.srid is None else f"EPSG:{parser.srid}"
-    try:
-        return Points(coordinates[:, :2], z=z, crs=crs)
-    except InputError as error:
-        raise FormatError(f"{source.name}, {error}") from None
+    return Geometries(vertices, _coordinates(vertices, parser), _counts(vertices, parser), crs)
+
+
+def _counts(vertices: Vertices, parser: _Parser) -> list[int]:
+    ends = np.cumsum([0, *vertices.sizes])[parser.ends]
+    counts: list[int] = np.diff(ends, prepend=0).tolist()
+    return counts
 
 
 @dataclass(frozen=True)
 class _Leaf:
-    """The innermost text of a geometry: positions between two parentheses."""
+    """The innermost text of a geometry: positions between two parentheses, of a line or points."""
 
     text: str
     start: int
-    closes: bool  # whether a last position that equals the first only closes the line
-
-    def positions(self) -> list[list[str]]:
-        positions = [position.split() for position in self.text.split(",")]
-        closed = self.closes and len(positions) > 3 and positions[0] == positions[-1]
-        return positions[:-1] if closed else positions
+    line: bool
 
 
 class _Parser:
     """Recursive descent over tokens, in which the positions of a line are one token."""
 
-    def __init__(self, text: str, source: str) -> None:
+    def __init__(self, text: str, source: Source, lines: Sequence[int] | None) -> None:
         self.text = text
         self.source = source
+        self.lines = lines
         self.leaves: list[_Leaf] = []
+        self.ends: list[int] = []  # how many leaves there are after each geometry
         self.srid: int | None = None
         self.tokens = self._tokens()
         self.kind, self.value, self.start = next(self.tokens)
@@ -89,14 +114,16 @@ class _Parser:
             while self.kind != "end":
                 self._reference()
                 self._geometry()
+                self.ends.append(len(self.leaves))
                 if self.value == ";":
                     self._advance()
         except RecursionError:
             raise self.error("the geometries are nested too deep: flatten them") from None
 
     def error(self, fault: str, start: int | None = None) -> FormatError:
-        line = self.text.count("\n", 0, self.start if start is None else start) + 1
-        return FormatError(f"{self.source}, line {line}: {fault}")
+        line = self.text.count("\n", 0, self.start if start is None else start)
+        number = line + 1 if self.lines is None else self.lines[line]
+        return self.source.error(fault, f"line {number}")
 
     def _tokens(self) -> Iterator[tuple[str, str, int]]:
         place = 0
@@ -174,46 +201,30 @@ class _Parser:
         self._advance()
 
 
-def _as_array(leaves: list[_Leaf], parser: _Parser) -> FloatArray:
-    positions = list(chain.from_iterable(leaf.positions() for leaf in leaves))
-    if not positions:
-        return np.empty((0, 2))
-    widths = set(map(len, positions))
-    if widths in ({2}, {3}):
-        try:
-            numbers = np.fromiter(map(_number, chain.from_iterable(positions)), np.float64)
-            return numbers.reshape(len(positions), -1)
-        except ValueError:
-            pass
-    raise _bad_position(leaves, parser, len(positions[0]))
-
-
-def _bad_position(leaves: list[_Leaf], parser: _Parser, width: int) -> FormatError:
-    for leaf in leaves:
-        for position in leaf.positions():
-            fault = _fault_of_position(position, width)
-            if fault:
-                return parser.error(f"{' '.join(position)[:60]!r} {fault}", leaf.start)
-    return parser.error("the positions do not fit together: correct them")
-
-
-def _fault_of_position(position: list[str], width: int) -> str | None:
-    if len(position) not in (2, 3):
-        return "is not two or three numbers: correct it"
-    if len(position) != width:
-        return f"has {len(position)} numbers, others have {width}: give all a height or none"
+def _coordinates(vertices: Vertices, parser: _Parser) -> FloatArray:
     try:
-        list(map(_number, position))
+        coordinates = vertices.coordinates()
+        if np.isfinite(coordinates).all() and "_" not in parser.text:
+            return coordinates
     except ValueError:
-        return "is not made of finite numbers: correct it"
-    return None
+        pass
+    for leaf in parser.leaves:
+        for position in leaf.text.split(","):
+            fault = _fault_of_position(position.split())
+            if fault:
+                raise parser.error(f"{position.strip()[:60]!r} {fault}", leaf.start)
+    raise parser.error("the positions do not fit together: correct them")
 
 
-def _number(text: str) -> float:
-    value = float(text)
-    if value - value != 0 or "_" in text:
-        raise ValueError(text)
-    return value
+def _fault_of_position(numbers: list[str]) -> str | None:
+    if len(numbers) < 2:
+        return "is not two or three numbers: correct it"
+    try:
+        finite = all(np.isfinite(float(number)) for number in numbers)
+    except ValueError:
+        finite = False
+    sound = finite and not any("_" in number for number in numbers)
+    return None if sound else "is not made of finite numbers: correct it"
 
 
 # Writing
@@ -221,7 +232,9 @@ def _number(text: str) -> float:
 
 def write_curves(curves: Curves, target: Target, *, polygons: bool = False) -> None:
     """Write the curves as text, a geometry a line, the isolated points as the last one."""
-    target.write(f"{line}\n" for line in _lines(curves, polygons))
+    lines = _lines(curves, polygons)
+    first = next(lines, "GEOMETRYCOLLECTION EMPTY")
+    target.write(f"{line}\n" for line in chain([first], lines))
 
 
 def write_points(points: Points, target: Target) -> None:
@@ -259,7 +272,8 @@ WKT = Format(
     suffixes=(".wkt",),
     sniff=_is_wkt,
     read=read,
+    read_curves=read_curves,
     write_points=write_points,
     write_curves=write_curves,
-    options=(POLYGONS,),
+    options=(POLYGONS, ENCODING),
 )

@@ -9,12 +9,15 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
+from crustline.curves import Curves
 from crustline.formats.format import Format
 from crustline.formats.source import Source
 from crustline.formats.text.columns import read_columns
 from crustline.formats.text.coordinates import as_points, choose_coordinates
+from crustline.formats.text.curves import curves_of
 from crustline.formats.text.dialect import find_dialect
-from crustline.formats.text.lines import Lines, unbounded_cells
+from crustline.formats.text.geometries import find_geometries, points_of_geometries
+from crustline.formats.text.lines import Lines, split_lines, unbounded_cells
 from crustline.formats.text.settings import OPTIONS, Settings
 from crustline.formats.text.writer import write_curves, write_points, write_xyz
 from crustline.points import Points
@@ -26,13 +29,22 @@ def read(source: Source, **options: Any) -> Points:
     """Return the points of columns of text; the options are those of `Settings`."""
     settings = Settings(**options)
     with unbounded_cells():
-        lines = Lines(source, source.text(settings.encoding).split("\n"), settings.skip_lines or 0)
+        lines = Lines(source, split_lines(source.text(settings.encoding)), settings.skip_lines or 0)
         if settings.comment is not None:
             lines = lines.with_comments(settings.comment)
         lines, dialect = find_dialect(lines, settings)
+        geometries = find_geometries(dialect.names, settings)
+        if geometries is not None:
+            table = read_columns(lines, dialect, [], settings)
+            return points_of_geometries(table, geometries)
         positions = choose_coordinates(lines, dialect, settings)
         table = read_columns(lines, dialect, positions, settings)
         return as_points(table, positions, settings)
+
+
+def read_curves(source: Source, **options: Any) -> Curves:
+    """Return the curves of columns curve, order, row and closed."""
+    return curves_of(read(source, **options), source)
 
 
 CSV = Format(
@@ -40,6 +52,7 @@ CSV = Format(
     title="CSV",
     suffixes=(".csv",),
     read=read,
+    read_curves=read_curves,
     write_points=partial(write_points, delimiter=","),
     write_curves=partial(write_curves, delimiter=","),
     options=OPTIONS,
@@ -49,6 +62,7 @@ TSV = Format(
     title="TSV",
     suffixes=(".tsv", ".tab"),
     read=read,
+    read_curves=read_curves,
     write_points=partial(write_points, delimiter="\t"),
     write_curves=partial(write_curves, delimiter="\t"),
     options=OPTIONS,

@@ -106,16 +106,18 @@ def _stated_separator(lines: Lines) -> tuple[Lines, str | None]:
 
 
 def _separator(lines: Lines) -> str:
-    """Return the separator by which most rows are numbers, with the fewest other cells."""
-    best, chosen = (0, 0.0), None
-    for separator in _SEPARATORS:
-        score = _score(_sample(lines, separator))
-        if score > best:
-            best, chosen = score, separator
-    if chosen is None:
+    """Return the separator by which most rows have two numbers.
+
+    Tabs, semicolons and bars hardly stand in numbers; commas and blanks do, so that of these the
+    one is taken that leaves fewer other cells.
+    """
+    scores = {each: _score(_sample(lines, each)) for each in _SEPARATORS}
+    most = max(count for count, _ in scores.values())
+    if most == 0:
         first = next((line for _, line in lines.data(lines.first)), "")
-        chosen = next((each for each in _SEPARATORS if each in first), " ")
-    return chosen
+        return next((each for each in _SEPARATORS if each in first), " ")
+    able = [each for each, (count, _) in scores.items() if count == most]
+    return able[0] if able[0] not in ", " else max(able, key=lambda each: scores[each][1])
 
 
 def _score(rows: list[Row]) -> tuple[int, float]:

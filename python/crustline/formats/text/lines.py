@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from crustline.formats.source import Source
 
-__all__ = ["Lines", "Row", "split", "unbounded_cells"]
+__all__ = ["Lines", "Row", "split", "split_lines", "unbounded_cells"]
 
 #: A record: the position of its line, and its cells.
 Row = tuple[int, list[str]]
@@ -94,6 +94,13 @@ class Lines:
         for position, line in self.data(first):
             positions.append(position)
             yield line + "\n"
+
+
+def split_lines(text: str) -> list[str]:
+    """Return lines; the ends of Windows and of old Macs count, but for those within quotes."""
+    if "\r" in text and ('"' not in text or "\n" not in text):
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
+    return text.split("\n")
 
 
 def split(line: str, separator: str) -> list[str]:

@@ -23,7 +23,7 @@ _DIGITS = (
 )
 _SIGN = r"[+\-−]?"
 _NUMBER = re.compile(
-    rf"{_SIGN}(?:{_DIGITS}(?:[.,]\d*)?|[.,]\d+)(?:[eEdD][+-]?\d+)?|{_SIGN}inf(?:inity)?",
+    rf"{_SIGN}(?:{_DIGITS}(?:\.\d*|,\d+)?|[.,]\d+)(?:[eEdD][+-]?\d+)?|{_SIGN}inf(?:inity)?",
     re.IGNORECASE,
 )
 _PART = r"\d+(?:[.,]\d*)?"

@@ -55,17 +55,19 @@ def write_points(points: Points, target: Target, delimiter: str) -> None:
 
 def _mistaken(names: list[str], coordinates: int) -> set[str]:
     """Return names of other columns that reading would take for coordinates."""
-    found = find_coordinates(names, None, "")
+    pair = find_pair(names)
+    found = find_coordinates(names, None, "") if pair else []
     if found == list(range(coordinates)):
         return set()
     return {names[k] for k in found if k >= coordinates} or set(names[coordinates:])
 
 
 def write_xyz(points: Points, target: Target) -> None:
-    """Write lines of x, y and z if there is one; XYZ has no other columns."""
+    """Write lines of x, y and z if there is one; names only where there are no points."""
     heights = [] if points.z is None else [points.z]
     cells = [texts(values) for values in (*points.xy.T, *heights)]
-    target.write("".join(f"{' '.join(row)}\n" for row in zip(*cells, strict=True)))
+    lines = [" ".join(row) for row in zip(*cells, strict=True)] or ["x y"]
+    target.write("\n".join([*lines, ""]))
 
 
 def _table(columns: dict[str, Column], separator: str) -> str:
