@@ -207,7 +207,7 @@ def _chunks_of(given: Any) -> Iterator[bytes]:
         _refuse_device(given)
     for chunk in _reads(given) if hasattr(given, "read") else given:
         if not isinstance(chunk, bytes | bytearray | memoryview | str):
-            raise InputError(f"a piece to read is {chunk!r:.60}, not bytes: give a path or bytes")
+            raise InputError(f"a piece to read is {shown(chunk)}, not bytes: give a path or bytes")
         yield _as_bytes(chunk)
 
 
