@@ -16,6 +16,9 @@ from crustline.scalars import as_real
 from crustline.shapes.bezier import bezier_loop, smoothed
 from crustline.shapes.curve import SmoothCurve
 
+#: How deep elements of an SVG file may be within one another, and how many they may come to.
+_DEEPEST, _MOST = 100, 100_000
+
 
 def bezier_path(source: str | os.PathLike[str], *, smooth_joins: float = 1.0) -> SmoothCurve:
     """Return the closed cubic Bézier paths of an SVG file, or of one path string.
@@ -61,8 +64,8 @@ def bezier_path(source: str | os.PathLike[str], *, smooth_joins: float = 1.0) ->
     return SmoothCurve(tuple(loops))
 
 
-def _svg_subpaths(source: str | os.PathLike[str]) -> Iterable[FloatArray]:
-    """Yield each subpath's cubic pieces, as control points of shape (s, 4, 2)."""
+def _svg_subpaths(source: str | os.PathLike[str]) -> list[FloatArray]:
+    """Return each subpath's cubic pieces, as control points of shape (s, 4, 2)."""
     try:
         import svgelements  # type: ignore[import-untyped]
     except ImportError:
@@ -71,44 +74,69 @@ def _svg_subpaths(source: str | os.PathLike[str]) -> Iterable[FloatArray]:
         raise InputError(f"source is {shown(source)}: give the name of a .svg file, or a path's d")
     name = os.fspath(source)
     if name.lower().endswith(".svg"):
-        paths = _paths_of_file(svgelements, name)
-    else:
-        paths = [_path_of_text(svgelements, name)]
-    for path in paths:
-        for subpath in path.as_subpaths():
-            cubics = [c for segment in subpath for c in _cubics(svgelements, segment)]
-            if cubics:
-                yield np.array(cubics)
-
-
-def _path_of_text(svg: Any, text: str) -> Any:
+        return _pieces_of_file(svgelements, name)
     try:
-        return svg.Path(text)
-    except (ValueError, TypeError, AttributeError, IndexError):  # as it comes upon a wrong letter
+        return _pieces([svgelements.Path(name)], svgelements)
+    except Exception:  # a dozen kinds, as they come upon a wrong letter
         raise InputError(
-            f"{text[:60]!r} is neither the d of a path, such as 'M 1 0 C …', nor a .svg file"
+            f"{name[:60]!r} is neither the d of a path, such as 'M 1 0 C …', nor a .svg file"
         ) from None
 
 
-def _paths_of_file(svg: Any, name: str) -> list[Any]:
-    """Return the paths of an SVG file, in the coordinates within its viewBox."""
+def _pieces(paths: Iterable[Any], svg: Any) -> list[FloatArray]:
+    """Return the cubics of each subpath that has any; refuse coordinates that are not finite."""
+    pieces = []
+    for path in paths:
+        for subpath in path.as_subpaths():
+            cubics = [c for segment in subpath for c in _cubics(svg, segment)]
+            if cubics:
+                pieces.append(np.array(cubics, dtype=np.float64))
+    if not all(np.isfinite(each).all() for each in pieces):
+        raise ValueError("a coordinate is not finite")
+    return pieces
+
+
+def _pieces_of_file(svg: Any, name: str) -> list[FloatArray]:
+    """Return the subpaths of an SVG file, in the coordinates within its viewBox."""
     from xml.etree import ElementTree
 
     from crustline.formats.source import Source
 
+    source = Source(name)
+    content = source.content()
+    if b"<!ENTITY" in content:
+        raise source.error("it declares entities, which are not read: write them out")
     try:
-        root = ElementTree.fromstring(Source(name).content())
-    except ElementTree.ParseError as error:
+        root = ElementTree.fromstring(content)
+    except (ElementTree.ParseError, ValueError, LookupError) as error:
         raise FormatError(f"{name} is no SVG: {error}") from None
     if root.tag.rpartition("}")[2] != "svg":
         raise FormatError(f"{name} is no SVG: its outermost element is {shown(root.tag)}")
+    _refuse_expansion(root, source)
     box = root.attrib.pop("viewBox", "").replace(",", " ").split()
     if len(box) == 4:
         # A drawing as large as its viewBox is neither scaled nor, from 0 on, shifted.
         root.attrib.update(width=box[2], height=box[3], viewBox=f"0 0 {box[2]} {box[3]}")
-    text = io.BytesIO(ElementTree.tostring(root))
-    shapes = svg.SVG.parse(text, reify=True).elements()
-    return [svg.Path(each) for each in shapes if isinstance(each, svg.Shape)]
+    with source.library("svgelements"):
+        text = io.BytesIO(ElementTree.tostring(root))
+        elements = svg.SVG.parse(text, reify=True).elements()
+        return _pieces((svg.Path(each) for each in elements if isinstance(each, svg.Shape)), svg)
+
+
+def _refuse_expansion(root: Any, source: Any) -> None:
+    """Refuse a tree that is too deep, or that `use` elements make endless or too large."""
+    named = {each.get("id"): each for each in root.iter() if each.get("id")}
+    waiting, count = [(root, 1)], 0
+    while waiting:
+        element, depth = waiting.pop()
+        count += 1
+        if depth > _DEEPEST or count > _MOST:
+            what = f"more than {_DEEPEST} deep" if depth > _DEEPEST else f"over {_MOST:,} elements"
+            raise source.error(f"its elements are {what}, uses of others included: simplify it")
+        waiting.extend((child, depth + 1) for child in element)
+        target = next((v for k, v in element.attrib.items() if k.rpartition("}")[2] == "href"), "")
+        if element.tag.rpartition("}")[2] == "use" and target[1:] in named:
+            waiting.append((named[target[1:]], depth + 1))
 
 
 def _cubics(svg: Any, segment: Any) -> list[list[list[float]]]:
