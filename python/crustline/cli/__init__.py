@@ -7,6 +7,7 @@ pipes are `main`'s.
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 import warnings
@@ -16,6 +17,7 @@ from typing import Any, NoReturn
 import click
 
 from crustline.cli.certify import certify
+from crustline.cli.info import convert, info
 from crustline.cli.medial_axis import medial_axis
 from crustline.cli.method import list_methods
 from crustline.cli.pictures import plot, smooth
@@ -26,6 +28,9 @@ from crustline.errors import CrustlineError, FormatWarning
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
     """Run the command with some arguments, by default those of the process, and exit."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")  # β is not in every encoding
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("always", FormatWarning)
@@ -42,8 +47,11 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
         sys.exit(1)
     except MemoryError:
         _exit(2, "there is not enough memory: reconstruct fewer points at once")
-    except (CrustlineError, OSError) as error:
+    except CrustlineError as error:
         _exit(2, str(error))
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # where nothing is flushed in vain at the end
+        _exit(2, f"standard output cannot be written: {error.strerror or error}")
     sys.exit(code or 0)  # what a command gave to `click.exceptions.Exit`
 
 
@@ -100,6 +108,6 @@ def commands(context: click.Context) -> None:
 
 
 for _command in (
-    reconstruct, certify, smooth, plot, medial_axis, thin, sample, list_methods,
+    reconstruct, info, certify, smooth, plot, medial_axis, thin, sample, convert, list_methods,
 ):  # fmt: skip
     commands.add_command(_command)

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 @click.command("medial-axis")
 @source_options
 @output_options("write_curves")
-@click.option("--inner", "part", flag_value="inner", help="Only what is inside of the rings.")
-@click.option("--outer", "part", flag_value="outer", help="Only what is outside of the rings.")
+@click.option("--inner", is_flag=True, help="Only what is inside of the rings.")
+@click.option("--outer", is_flag=True, help="Only what is outside of the rings.")
 @click.option(
     "--prune", "at_least", type=float, default=0.0, metavar="LENGTH",
     help="Leave out what stands for less than this of the curve, in the unit of the points: "
@@ -39,7 +39,8 @@ if TYPE_CHECKING:
 def medial_axis(
     source: Source,
     output: Output,
-    part: str | None,
+    inner: bool,
+    outer: bool,
     at_least: float,
     box: str | None,
     method: Method,
@@ -54,13 +55,16 @@ def medial_axis(
     """
     corners = None if box is None else _corners(box)
     at_least = as_length("--prune", at_least)
+    if inner and outer:
+        raise InputError("--inner and --outer exclude each other: give neither for the whole axis")
+    part = "inner" if inner else "outer" if outer else None
     with reconstruction(source, method, output.quiet) as made:
         axis = _part(made.medial_axis.prune(at_least), part)
     output.write(axis.curves(corners))
-    inner = int(np.count_nonzero(axis.inner))
+    inside = int(np.count_nonzero(axis.inner))
     counts = {
-        "inner_edges": inner,
-        "outer_edges": len(axis.edges) - inner,
+        "inner_edges": inside,
+        "outer_edges": len(axis.edges) - inside,
         "rays": len(axis.ray_origins),
     }
     words = ("inner edge", "outer edge", "ray")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import json
+import os
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -148,10 +149,19 @@ def _checked(settings: dict[str, Any], formats: dict[str, str], task: str) -> di
 
 def check_files(files: tuple[str, ...]) -> None:
     """Refuse files that cannot be written, before any work is done for them."""
-    for file in files:
+    source = click.get_current_context().params.get("name")
+    taken = {_place(source)} if source not in (None, "-") else set()
+    for number, file in enumerate(files):
         check_writable(file)
-        if files.count(file) > 1:
+        if file in files[:number] or _place(file) in map(_place, files[:number]):
             raise InputError(f"the output {file!r} is given more than once: give each file once")
+        if _place(file) in taken:
+            raise InputError(f"the output {file!r} is the input: give another name")
+
+
+def _place(file: str) -> str:
+    """Return where a file really is, whatever links lead to it."""
+    return file if file == "-" else os.path.realpath(file)
 
 
 def _formats(files: tuple[str, ...], output_format: str | None, task: str) -> dict[str, str]:

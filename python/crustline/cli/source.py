@@ -14,6 +14,7 @@ from crustline.formats.catalog import able, options_for
 from crustline.formats.format import Format, Option
 
 if TYPE_CHECKING:
+    from crustline.formats.source import Source as Bytes
     from crustline.points import Points
 
 
@@ -27,11 +28,11 @@ class Source:
     threads: int | None
     settings: dict[str, Any]
 
-    def read(self) -> Points:
-        """Return its points."""
+    def read(self, opened: Bytes | None = None) -> Points:
+        """Return its points; what was opened keeps notes of how it was understood."""
         from crustline.formats import read
 
-        return read(self.name, format=self.format, crs=self.crs, **self.settings)
+        return read(opened or self.name, format=self.format, crs=self.crs, **self.settings)
 
 
 def source_options(command: Command) -> Command:

@@ -36,7 +36,7 @@ def unpacked(source: Source) -> Source:
     if opening is None:
         return source
     name = source.name.removesuffix(source.suffix) or source.name
-    return Source(_streamed(source, opening), name)
+    return Source(_streamed(source, opening), name, source.notes)
 
 
 def bounded(chunks: Iterator[bytes], packed: int, name: str) -> Iterator[bytes]:
@@ -75,7 +75,8 @@ def member(source: Source, suffixes: Collection[str]) -> Source:
         names = ", ".join(f"{each.filename!r:.40}" for each in (fitting or files)[:5])
         found = f"{len(fitting)} files" if fitting else "no file"
         raise source.error(f"the archive has {found} of points ({names}): unpack it, and give one")
-    return Source(_extracted(source, archive, fitting[0]), f"{source.name}/{fitting[0].filename}")
+    name = f"{source.name}/{fitting[0].filename}"
+    return Source(_extracted(source, archive, fitting[0]), name, source.notes)
 
 
 def _extracted(source: Source, archive: zipfile.ZipFile, member: Any) -> Iterator[bytes]:

@@ -78,6 +78,7 @@ def read(
     settings = chosen.settings("read", options)
     chosen.require()
     assert chosen.read is not None
+    source.note("format", chosen.title)
     return _with_crs(chosen.read(source, **settings), crs)
 
 

@@ -381,7 +381,7 @@ def _format(
         write_points=driver.write_points,
         write_curves=driver.write_curves if polygons else driver.write_lines,
         write_layers=driver.write_layers if layered else None,
-        options=(LAYER, WHERE, POLYGONS),
+        options=(LAYER, WHERE, POLYGONS) if polygons else (LAYER, WHERE),
         extra="gis",
         needs=_NEEDS,
     )

@@ -1,0 +1,135 @@
+"""The command and its files: what it says about one, and that it never ruins one."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from crustline import read
+from crustline.cli import main
+from crustline.formats import FORMATS
+from crustline.formats.catalog import options_for
+
+Run = Callable[..., tuple[int, str, str]]
+TABLE = "made by hand\nx;y;name\n1,5;2,5;a\n3,5;4,5;b\n5,5;2,5;c\n"
+
+
+@pytest.fixture
+def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> Run:
+    """Run the command within a folder that holds table.csv."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "table.csv").write_text(TABLE)
+
+    def run(*arguments: str) -> tuple[int, str, str]:
+        with pytest.raises(SystemExit) as caught:
+            main(arguments)
+        return (int(caught.value.code or 0), *capfd.readouterr())
+
+    return run
+
+
+def test_info_says_how_a_file_was_understood(run: Run) -> None:
+    code, out, err = run("info", "table.csv")
+    assert (code, err) == (0, "")
+    facts = dict(line.split("  ", 1) for line in out.splitlines())
+    facts = {name: value.strip() for name, value in facts.items()}
+    assert facts["title"] == "made by hand"
+    assert (facts["separator"], facts["decimal mark"]) == ("semicolon", "comma")
+    assert facts["extent"] == "1.5, 2.5, 5.5, 4.5"
+    assert facts["columns"] == "name (object)"
+
+
+def test_info_for_programs(run: Run) -> None:
+    _, out, _ = run("info", "table.csv", "--json")
+    facts = json.loads(out)
+    assert (facts["points"], facts["duplicates"], facts["format"]) == (3, 0, "CSV")
+    assert facts["spacing"][0] == pytest.approx(8**0.5, rel=1e-5)
+
+
+def test_convert_keeps_what_the_format_holds(run: Run) -> None:
+    assert run("convert", "table.csv", "-o", "a.geojson", "-o", "b.xyz", "-q") == (0, "", "")
+    assert read("a.geojson").columns["name"].tolist() == ["a", "b", "c"]
+    assert read("b.xyz").xy.tolist() == [[1.5, 2.5], [3.5, 4.5], [5.5, 2.5]]
+
+
+@pytest.mark.parametrize("where", ["table.csv", "./table.csv", "link.csv"])
+def test_the_input_is_never_overwritten(run: Run, where: str) -> None:
+    os.symlink("table.csv", "link.csv")
+    code, _, err = run("convert", "table.csv", "-o", where)
+    assert code == 2
+    assert "is the input" in err
+    assert Path("table.csv").read_text() == TABLE
+
+
+def test_two_outputs_to_one_file_are_refused(run: Run) -> None:
+    code, _, err = run("convert", "table.csv", "-o", "a.csv", "-o", "./a.csv")
+    assert (code, "more than once" in err) == (2, True)
+    assert not Path("a.csv").exists()
+
+
+def test_inner_and_outer_exclude_each_other(run: Run) -> None:
+    code, _, err = run("medial-axis", "table.csv", "--inner", "--outer")
+    assert (code, "exclude each other" in err) == (2, True)
+
+
+def test_an_empty_crs_is_refused(run: Run) -> None:
+    code, _, err = run("convert", "table.csv", "-o", "a.csv", "--crs", "")
+    assert (code, "EPSG:4326" in err) == (2, True)
+
+
+def test_a_warning_is_one_line(run: Run) -> None:
+    Path("odd.csv").write_text("a,b\n1,2\n3,4\n")
+    code, _, err = run("convert", "odd.csv", "-o", "a.csv", "-q")
+    assert code == 0
+    assert err.startswith("crustline: warning: odd.csv: takes 'a', 'b' for x and y")
+    assert err.count("\n") == 1
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs /dev/full")
+def test_a_full_standard_output_is_named(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text(TABLE)
+    with open("/dev/full", "w") as full:
+        for command in (
+            ["info", "a.csv"],
+            ["convert", "a.csv", "-o", "-", "--output-format", "csv"],
+        ):
+            ran = subprocess.run(
+                [sys.executable, "-m", "crustline", *command],
+                cwd=tmp_path, stdout=full, stderr=subprocess.PIPE, text=True, check=False,
+            )  # fmt: skip
+            assert ran.returncode == 2
+            assert ran.stderr.endswith(
+                "standard output cannot be written: No space left on device"
+                + (": check the place and its free space" * (len(command) > 2))
+                + "\n"
+            )
+
+
+def test_help_is_written_in_any_encoding(tmp_path: Path) -> None:
+    ran = subprocess.run(
+        [sys.executable, "-m", "crustline", "reconstruct", "--help"],
+        env={**os.environ, "PYTHONIOENCODING": "ascii"}, capture_output=True, check=False,
+    )  # fmt: skip
+    assert (ran.returncode, ran.stderr) == (0, b"")
+
+
+def test_every_option_of_a_format_is_in_the_help(run: Run) -> None:
+    _, out, _ = run("reconstruct", "--help")
+    for task in ("read", "write_curves"):
+        for option in options_for(task):
+            assert option.spelling in out
+
+
+def test_options_are_what_functions_take() -> None:
+    tasks = [
+        "read", "read_curves", "stream", "write_points", "write_curves", "write_splines",
+    ]  # fmt: skip
+    for each in FORMATS.values():
+        taken = {option for task in tasks for option in each.options_of(task)}
+        assert taken == set(each.options), each.name
