@@ -54,7 +54,7 @@ def test_json_for_programs(run):
     assert summary.pop("isolated") == 0
     assert summary == {
         "input": "square.csv",
-        "method": "crust",
+        "method": "connect",
         "points": 5,
         "duplicates": 1,
         "rings": 1,

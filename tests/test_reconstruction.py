@@ -113,9 +113,9 @@ def test_the_method_gets_the_triangulation_and_may_give_any_array_of_edges() -> 
     [
         ("crust", {}, "write method=cl.crust"),
         ("nn-crust", {}, "write method=cl.nn_crust"),
-        ("some other", {}, "write method=cl.crust"),
+        ("some other", {}, "write method=cl.connect"),
         (lambda: [(0, 1)], {}, "takes no points"),
-        (None, {}, "write method=cl.crust"),
+        (None, {}, "write method=cl.connect"),
         (cl.crust, {"beta": 2}, "crust has no parameter 'beta': it has none"),
         (cl.beta_skeleton, {"alpha": 2}, "no parameter 'alpha': it has beta, kind"),
         (cl.alpha_shape, {}, "alpha_shape needs radius: pass radius=…"),

@@ -626,7 +626,7 @@ def test_refuses_bad_input(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="give one"):
         line[0].sample()
     with pytest.raises(InputError, match=r"name it \.svg"):
-        line.write(tmp_path / "curves.dxf")
+        line.write(tmp_path / "curves.png")
     with pytest.raises(FormatError, match="cannot be written"):
         line.write(tmp_path / "missing" / "curves.svg")
 

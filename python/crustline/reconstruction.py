@@ -19,7 +19,7 @@ from crustline.curves import Curves, trace
 from crustline.delaunay import Delaunay, as_delaunay, points_and_how
 from crustline.interpolant import local_feature_size
 from crustline.medial_axis import MedialAxis, medial_axis
-from crustline.methods import as_method, crust, name_of
+from crustline.methods import as_method, connect, name_of
 from crustline.points import Points
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ class Reconstruction:
     points : array_like of float, shape (n, 2), Points or Delaunay
         Coordinates, in any one unit. Finite. What points carry is kept. A `Delaunay` brings its
         threads and progress.
-    method : callable, default `crust`
+    method : callable, default `connect`
         Takes the triangulation of the points (which serves as an array of them) and returns edges.
     **parameters
         Passed on to the method, such as ``beta=1.5`` for `beta_skeleton`.
@@ -72,7 +72,7 @@ class Reconstruction:
     --------
     >>> goose = Reconstruction([(0, 0), (1, 1), (1, 0), (0, 1)])
     >>> goose
-    <Reconstruction: 4 points by crust>
+    <Reconstruction: 4 points by connect>
     >>> goose.curves, goose.certificate.guaranteed
     (<Curves: 1 ring, 0 polylines, 0 isolated points; 4 points>, False)
     """
@@ -80,7 +80,7 @@ class Reconstruction:
     def __init__(
         self,
         points: npt.ArrayLike | Delaunay,
-        method: Callable[..., npt.ArrayLike] = crust,
+        method: Callable[..., npt.ArrayLike] = connect,
         **parameters: Any,
     ) -> None:
         self.method: Callable[..., npt.ArrayLike] = as_method(method, parameters)
@@ -169,7 +169,7 @@ def as_reconstruction(points: npt.ArrayLike | Delaunay | Reconstruction) -> Reco
 
 def reconstruct(
     points: npt.ArrayLike | Delaunay,
-    method: Callable[..., npt.ArrayLike] = crust,
+    method: Callable[..., npt.ArrayLike] = connect,
     **parameters: Any,
 ) -> Curves:
     """Return the curves that the points were sampled from, by a method.
@@ -178,7 +178,7 @@ def reconstruct(
     ----------
     points : array_like of float, shape (n, 2), Points or Delaunay
         Coordinates, in any one unit. Finite. What points carry is kept.
-    method : callable, default `crust`
+    method : callable, default `connect`
         Takes the triangulation of the points and returns edges.
     **parameters
         Passed on to the method, such as ``beta=1.5`` for `beta_skeleton`.

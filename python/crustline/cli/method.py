@@ -27,7 +27,7 @@ class Method:
 def method_options(command: Command) -> Command:
     """Give a command the options that choose a method; it takes `method: Method`."""
 
-    @click.option("--method", default="crust", show_default=True, metavar="NAME",
+    @click.option("--method", default="connect", show_default=True, metavar="NAME",
                   shell_complete=_matching,
                   help="The method; `crustline methods` lists them.")  # fmt: skip
     @click.option("--beta", type=float, metavar="B", help="The β of a β-skeleton.")
