@@ -67,18 +67,18 @@ pub const CONSTANTS: Constants = Constants {
     long: 0.2,
     close: 0.25,
     reach: 4.0,
-    gap: 5.0,
-    gap_free: 0.9,
+    gap: 8.0,
+    gap_free: 0.85,
     gap_jump: 2.5,
     rough_turn: 0.14,
     rough_step: 0.7,
-    prune_step: 0.3,
+    prune_step: 0.23,
     prune_cost: 0.3,
     prune_size: 0.33,
 };
 
 /// Edges that cost more than this are no candidates: to leave one out costs at most two ends, which is 2.
-pub const HOPELESS: f32 = 3.0;
+pub const HOPELESS: f32 = 2.0;
 /// At a vertex of more edges than this pairs are made among the shortest only, so that hubs stay cheap.
 pub const MOST_PAIRED: usize = 14;
 /// Rings of neighbors whose medians smooth the local spacing: enough to vote down small clusters of outliers.
@@ -91,10 +91,12 @@ pub const GAP_WINDOW: usize = 20;
 pub const GAP_FEWEST: usize = 4;
 /// … and from as many on it is told in full.
 pub const GAP_SURE: f32 = 10.0;
+/// Where the longest usual step is e to this power times the lower quartile, that is trusted half.
+pub const GAP_SPREAD: f32 = 1.5;
 /// The most sweeps of messages a round: a message goes as many edges far.
 pub const SWEEPS: usize = 20;
 /// Messages that change by no more than this have converged; an end costs 1.
-pub const CONVERGED: f32 = 1e-3;
+pub const CONVERGED: f32 = 1e-2;
 /// Components of fewer points than this are dropped where points are isolated: outliers pair up.
 pub const FEWEST: usize = 4;
 /// How many isolated points it takes to prune at all.

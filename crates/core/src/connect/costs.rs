@@ -25,7 +25,7 @@ impl Costs {
     #[must_use]
     pub fn new(
         candidates: &Candidates,
-        spacing: &Spacing,
+        spacing: &Spacing<'_>,
         rough: &Roughness,
         constants: &Constants,
     ) -> Self {
@@ -65,7 +65,7 @@ impl Costs {
 #[must_use]
 pub fn first_edge_costs(
     candidates: &Candidates,
-    spacing: &Spacing,
+    spacing: &Spacing<'_>,
     constants: &Constants,
 ) -> Vec<f32> {
     candidates.map(0.0, |v, own| {
@@ -84,7 +84,7 @@ fn sight_cost(candidates: &Candidates, e: usize, constants: &Constants) -> f32 {
 /// The cost of the length of the edge of half-edge `e` between two vertices.
 fn length_cost(
     candidates: &Candidates,
-    spacing: &Spacing,
+    spacing: &Spacing<'_>,
     ends: [usize; 2],
     e: usize,
     constants: &Constants,

@@ -1,7 +1,7 @@
 //! Gaps: edges much longer than the steps of the curve around them, where these are much alike.
 
 use super::candidates::{Candidates, by_vertex};
-use super::constants::{Constants, GAP_FEWEST, GAP_SURE, GAP_WINDOW};
+use super::constants::{Constants, GAP_FEWEST, GAP_SPREAD, GAP_SURE, GAP_WINDOW};
 use super::geometry::Spacing;
 use super::selection::Selection;
 
@@ -25,21 +25,19 @@ impl Gaps {
     #[must_use]
     pub fn new(
         candidates: &Candidates,
-        spacing: &Spacing,
+        spacing: &Spacing<'_>,
         selection: &Selection,
         constants: &Constants,
     ) -> Self {
         let usual = by_vertex(candidates.vertices(), |v| {
-            let mut steps = steps_around(candidates, spacing, selection, v);
-            let count = steps.len();
-            let Some(step) = usual_step(&mut steps, constants) else { return Usual::none() };
-            // Where both edges are long the curve is sparse, and has no gap.
-            let is_long = |e: usize| spacing.length(v, e) > constants.gap_jump * step;
-            if selection.degrees[v] == 2 && selection.from(candidates, v).all(is_long) {
+            if !may_begin(candidates, spacing, selection, v, constants) {
                 return Usual::none();
             }
-            let step = libm::log(step / spacing.nearest[v]) as f32;
-            Usual { step, trust: (count as f32 / GAP_SURE).min(1.0) }
+            let steps = steps_around(candidates, spacing, selection, v);
+            usual_steps(steps, constants).map_or(Usual::none(), |(step, trust)| Usual {
+                step: libm::log(step / spacing.nearest[v]) as f32,
+                trust,
+            })
         });
         Self { usual }
     }
@@ -49,7 +47,7 @@ impl Gaps {
     pub fn cost(
         &self,
         candidates: &Candidates,
-        spacing: &Spacing,
+        spacing: &Spacing<'_>,
         [v, end]: [usize; 2],
         e: usize,
         constants: &Constants,
@@ -71,10 +69,24 @@ impl Usual {
     }
 }
 
+/// May a gap begin at `v`: is one of its two steps much longer than the other?
+fn may_begin(
+    candidates: &Candidates,
+    spacing: &Spacing<'_>,
+    selection: &Selection,
+    v: usize,
+    constants: &Constants,
+) -> bool {
+    selection.pair(candidates, v).is_some_and(|pair| {
+        let [a, b] = pair.map(|k| spacing.lengths[candidates.from(v).start + k]);
+        (a - b).abs() > constants.gap_free as f32
+    })
+}
+
 /// The steps along the curve on both sides of `v`.
 fn steps_around(
     candidates: &Candidates,
-    spacing: &Spacing,
+    spacing: &Spacing<'_>,
     selection: &Selection,
     v: usize,
 ) -> Vec<f64> {
@@ -82,8 +94,9 @@ fn steps_around(
     for first in selection.from(candidates, v) {
         let (mut at, mut e) = (v, first);
         for _ in 0..GAP_WINDOW {
-            steps.push(spacing.length(at, e));
-            at = candidates.ends[e] as usize;
+            let end = candidates.ends[e] as usize;
+            steps.push(spacing.distance(at, end));
+            at = end;
             let Some(next) = selection.next(candidates, e) else { break };
             if at == v {
                 break;
@@ -94,13 +107,17 @@ fn steps_around(
     steps
 }
 
-/// The longest of the usual steps: those from the median on up to where the next is much longer.
-fn usual_step(steps: &mut [f64], constants: &Constants) -> Option<f64> {
+/// The longest of the usual steps, those from the median on up to where the next is much longer, and how far to trust it:
+/// less where there are few, and where the usual ones differ much themselves, as in random samples.
+fn usual_steps(mut steps: Vec<f64>, constants: &Constants) -> Option<(f64, f32)> {
     if steps.len() < GAP_FEWEST {
         return None;
     }
     steps.sort_unstable_by(f64::total_cmp);
     let from = &steps[(steps.len() - 1) / 2..];
     let jump = from.windows(2).find(|pair| pair[1] >= constants.gap_jump * pair[0]);
-    Some(jump.map_or(from[from.len() - 1], |pair| pair[0]))
+    let longest = jump.map_or(from[from.len() - 1], |pair| pair[0]);
+    let spread = libm::log(longest / steps[steps.len() / 4]) as f32 / GAP_SPREAD;
+    let enough = (steps.len() as f32 / GAP_SURE).min(1.0);
+    Some((longest, enough / (1.0 + spread * spread * spread * spread)))
 }

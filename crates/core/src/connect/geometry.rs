@@ -11,7 +11,8 @@ use crate::point::{Point, length, sub};
 
 /// The distances between candidates' ends.
 #[derive(Debug, Default)]
-pub struct Spacing {
+pub struct Spacing<'a> {
+    points: &'a [Point],
     /// For each vertex: the distance to its nearest neighbor; infinite if it is the only one.
     pub nearest: Vec<f64>,
     /// For each half-edge: the logarithm of its length over the distance from its vertex to the nearest other.
@@ -20,10 +21,10 @@ pub struct Spacing {
     pub crowding: Vec<f32>,
 }
 
-impl Spacing {
+impl<'a> Spacing<'a> {
     /// Measure the candidates. Linear.
     #[must_use]
-    pub fn new(delaunay: &Delaunay, candidates: &Candidates, constants: &Constants) -> Self {
+    pub fn new(delaunay: &'a Delaunay, candidates: &Candidates, constants: &Constants) -> Self {
         let vertices = candidates.vertices();
         let distance = |v: usize, end: u32| length(vector(delaunay, v, end));
         let nearest = by_vertex(vertices, |v| {
@@ -44,13 +45,13 @@ impl Spacing {
         let crowding = by_vertex(vertices, |v| {
             if nearest[v].is_finite() { libm::log(spacing[v] / nearest[v]) as f32 } else { 0.0 }
         });
-        Self { nearest, lengths, crowding }
+        Self { points: delaunay.points(), nearest, lengths, crowding }
     }
 
-    /// The length of half-edge `e` from `v`.
+    /// The distance between two vertices.
     #[must_use]
-    pub fn length(&self, v: usize, e: usize) -> f64 {
-        self.nearest[v] * libm::exp(f64::from(self.lengths[e]))
+    pub fn distance(&self, a: usize, b: usize) -> f64 {
+        length(sub(self.points[b], self.points[a]))
     }
 }
 

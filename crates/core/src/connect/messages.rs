@@ -18,7 +18,7 @@ pub struct Factors<'a> {
     /// The edges.
     pub candidates: &'a Candidates,
     /// Their lengths.
-    pub spacing: &'a Spacing,
+    pub spacing: &'a Spacing<'a>,
     /// The turns between them.
     pub turns: &'a Turns,
     /// Their costs.
@@ -52,7 +52,7 @@ impl Factors<'_> {
 
     /// Write the messages of the active vertices of part `k`, which are not active any more.
     fn write(&self, k: usize, sent: &[f32], active: &[AtomicBool], mail: &mut Mail) {
-        let mut work = Work::default();
+        let mut work = Work::new();
         mail.clear();
         for v in k * GRAIN..((k + 1) * GRAIN).min(self.candidates.vertices()) {
             if active[v].swap(false, Relaxed) {
@@ -109,7 +109,7 @@ impl Factors<'_> {
     }
 }
 
-/// The two least of some values, and which is the least.
+/// The two least of some costs, and what gave the least.
 #[derive(Clone, Copy)]
 struct Least {
     value: f32,
@@ -118,32 +118,39 @@ struct Least {
 }
 
 impl Least {
-    fn of(values: &[f32]) -> Self {
-        let mut least = Self { value: f32::INFINITY, second: f32::INFINITY, index: usize::MAX };
-        for (index, &value) in values.iter().enumerate() {
-            if value < least.value {
-                least = Self { value, second: least.value, index };
-            } else if value < least.second {
-                least.second = value;
-            }
-        }
-        least
+    const NONE: Self = Self { value: f32::INFINITY, second: f32::INFINITY, index: usize::MAX };
+
+    /// Without branches: which is the least is hard to foretell.
+    #[inline]
+    fn meet(&mut self, value: f32, index: usize) {
+        let is_less = value < self.value;
+        let greater = if is_less { self.value } else { value };
+        self.second = if greater < self.second { greater } else { self.second };
+        self.index = if is_less { index } else { self.index };
+        self.value = if is_less { value } else { self.value };
     }
 
+    #[inline]
     fn without(&self, index: usize) -> f32 {
         if self.index == index { self.second } else { self.value }
     }
 }
 
+/// Pairs at one vertex, padded so that a row of sums is a few vector instructions.
+const WIDTH: usize = 16;
+/// The width where few edges form pairs, as at most vertices.
+const HALF: usize = WIDTH / 2;
+/// Sums that one instruction adds.
+const LANES: usize = 4;
+
 /// The memory of one task.
-#[derive(Default)]
 struct Work {
     /// What each edge costs as seen from its other end.
     incoming: Vec<f32>,
-    /// The cost of each pair beside what comes in, row after row, square; infinite on the diagonal.
-    pairs: Vec<f32>,
-    /// The least cost of a second edge beside each.
-    seconds: Vec<f32>,
+    /// The same for those that form pairs, and infinity.
+    seen: [f32; WIDTH],
+    /// What each pair costs at the vertex; infinite for an edge and itself.
+    pairs: [[f32; WIDTH]; WIDTH],
     /// How many edges form pairs.
     count: usize,
     /// The answers.
@@ -151,52 +158,95 @@ struct Work {
 }
 
 impl Work {
-    /// What each edge finds at `v` as the second of a pair, and all pairs.
+    fn new() -> Self {
+        Self {
+            incoming: Vec::new(),
+            seen: [f32::INFINITY; WIDTH],
+            pairs: [[f32::INFINITY; WIDTH]; WIDTH],
+            count: 0,
+            messages: Vec::new(),
+        }
+    }
+
+    /// Put down what pairs cost at `v`.
     fn pair_up(&mut self, factors: &Factors<'_>, v: usize) {
         let Factors { candidates, spacing, turns, costs } = factors;
-        let count = candidates.pairs(v);
-        debug_assert!(count <= MOST_PAIRED);
-        let lengths = &spacing.lengths[candidates.from(v)][..count];
+        self.count = candidates.pairs(v);
+        let lengths = &spacing.lengths[candidates.from(v)][..self.count];
         let mut turns = turns.at(v).iter();
-        self.count = count;
-        self.seconds.clear();
-        self.seconds.resize(self.incoming.len(), f32::INFINITY);
-        self.pairs.resize(MOST_PAIRED * MOST_PAIRED, f32::INFINITY);
-        for i in 0..count {
-            for j in i + 1..count {
+        for (i, &a) in lengths.iter().enumerate() {
+            for (j, &b) in lengths.iter().enumerate().skip(i + 1) {
                 let &turn = turns.next().expect("a turn for each pair");
-                let cost = costs.pair(v, turn, [lengths[i], lengths[j]]);
-                self.seconds[i] = self.seconds[i].min(cost + self.incoming[j]);
-                self.seconds[j] = self.seconds[j].min(cost + self.incoming[i]);
-                self.pairs[i * MOST_PAIRED + j] = cost + (self.incoming[i] + self.incoming[j]);
+                let cost = costs.pair(v, turn, [a, b]);
+                self.pairs[i][j] = cost;
+                self.pairs[j][i] = cost;
             }
         }
+        // What is left of other vertices in the rows is beside an infinity.
+        self.seen = [f32::INFINITY; WIDTH];
+        self.seen[..self.count].copy_from_slice(&self.incoming[..self.count]);
     }
 
     /// On less off, for each edge.
     fn answer(&mut self, end: f32, alone: f32) {
-        let single = Least::of(&self.incoming);
-        let (pair, first, second) = self.best_pair(usize::MAX);
+        let mut single = Least::NONE;
+        for (k, &cost) in self.incoming.iter().enumerate() {
+            single.meet(cost, k);
+        }
+        let seconds = self.seconds(&self.seen);
+        let mut pair = Least::NONE;
+        for (k, second) in seconds[..self.count].iter().enumerate() {
+            pair.meet(self.seen[k] + second, k);
+        }
+        let both = self.both(pair);
         self.messages.clear();
         for k in 0..self.incoming.len() {
-            let on = end.min(self.seconds[k]);
-            let paired = if k == first || k == second { self.best_pair(k).0 } else { pair };
-            let off = alone.min(end + single.without(k)).min(paired);
-            self.messages.push(on - off);
+            let on = if k < self.count { end.min(seconds[k]) } else { end };
+            let pair = if both.contains(&k) { self.best_without(k) } else { pair.value };
+            self.messages.push(on - alone.min(end + single.without(k)).min(pair));
         }
     }
 
-    /// The cheapest pair without edge `k`, and what it is made of.
-    fn best_pair(&self, k: usize) -> (f32, usize, usize) {
-        let mut best = (f32::INFINITY, usize::MAX, usize::MAX);
-        for i in (0..self.count).filter(|&i| i != k) {
-            let row = &self.pairs[i * MOST_PAIRED..][..self.count];
-            for j in (i + 1..self.count).filter(|&j| j != k) {
-                if row[j] < best.0 {
-                    best = (row[j], i, j);
-                }
-            }
+    /// For each edge the least cost of a second one beside it.
+    fn seconds(&self, seen: &[f32; WIDTH]) -> [f32; WIDTH] {
+        let mut seconds = [f32::INFINITY; WIDTH];
+        for (second, row) in seconds.iter_mut().zip(&self.pairs[..self.count]) {
+            let width = if self.count <= HALF { HALF } else { WIDTH };
+            *second = least_sum(&row[..width], &seen[..width]);
         }
-        best
+        seconds
     }
+
+    /// The two edges of the best pair, given the first.
+    fn both(&self, pair: Least) -> [usize; 2] {
+        if pair.index >= self.count {
+            return [usize::MAX; 2];
+        }
+        let mut second = Least::NONE;
+        for (k, cost) in self.pairs[pair.index][..self.count].iter().enumerate() {
+            second.meet(cost + self.seen[k], k);
+        }
+        [pair.index, second.index]
+    }
+
+    /// The cost of the best pair without edge `k`.
+    fn best_without(&self, k: usize) -> f32 {
+        let mut seen = self.seen;
+        seen[k] = f32::INFINITY;
+        let seconds = self.seconds(&seen);
+        least_sum(&seconds[..WIDTH], &seen[..WIDTH])
+    }
+}
+
+/// The least sum of two values at one place.
+#[inline]
+fn least_sum(a: &[f32], b: &[f32]) -> f32 {
+    let mut least = [f32::INFINITY; LANES];
+    for (a, b) in a.as_chunks::<LANES>().0.iter().zip(b.as_chunks::<LANES>().0) {
+        for lane in 0..LANES {
+            let sum = a[lane] + b[lane];
+            least[lane] = if sum < least[lane] { sum } else { least[lane] };
+        }
+    }
+    least.into_iter().fold(f32::INFINITY, f32::min)
 }

@@ -76,7 +76,7 @@ fn is_outlier(
         for e in selection.from(factors.candidates, v) {
             // Both ends of each edge are here.
             cost += f64::from(factors.costs.edges[e]) / 2.0;
-            steps.push(factors.spacing.length(v, e));
+            steps.push(factors.spacing.distance(v, factors.candidates.ends[e] as usize));
         }
     }
     median(&mut steps).is_some_and(|step| step >= constants.prune_step * apart)

@@ -26,7 +26,7 @@ impl Roughness {
     #[must_use]
     pub fn new(
         candidates: &Candidates,
-        spacing: &Spacing,
+        spacing: &Spacing<'_>,
         turns: &Turns,
         selection: &Selection,
         constants: &Constants,
@@ -87,7 +87,7 @@ fn known(values: &[f64], v: usize) -> f64 {
 }
 
 /// For each vertex the share of isolated ones among those about as far from others, relative to the spacing around.
-fn isolated_share(spacing: &Spacing, selection: &Selection, constants: &Constants) -> Vec<f32> {
+fn isolated_share(spacing: &Spacing<'_>, selection: &Selection, constants: &Constants) -> Vec<f32> {
     let vertices = spacing.crowding.len();
     let remote = |v: usize| -spacing.crowding[v];
     let mut isolated: Vec<f32> =
