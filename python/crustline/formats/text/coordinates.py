@@ -233,10 +233,11 @@ def _check_counts(table: Table, rows: int) -> None:
 
 def _refuse_numbering(table: Table) -> None:
     """Refuse three columns and more of which the first counts the rows: it is hardly x."""
-    first, rows = table.columns.get(0), len(table)
+    rows = len(table)
     if rows < 3 or len(table.columns) < 3:
         return
-    numbers = np.array(first, dtype=np.object_).astype(np.float64)
+    first = table.columns[0]
+    numbers = first if isinstance(first, np.ndarray) else parse_all(first, table.mark)[0]
     counted = np.array_equal(numbers, np.arange(rows) + numbers[0]) and numbers[0] in (0, 1)
     if counted:
         raise FormatError(

@@ -26,11 +26,13 @@ _NUMBER = re.compile(
     rf"{_SIGN}(?:{_DIGITS}(?:\.\d*|,\d+)?|[.,]\d+)(?:[eEdD][+-]?\d+)?|{_SIGN}inf(?:inity)?",
     re.IGNORECASE,
 )
-_PART = r"\d+(?:[.,]\d*)?"
+# Few digits each, and a mark between them: else a long row of digits could be cut in too many ways.
+_PART = r"\d{1,3}(?:[.,]\d{0,20})?"
 _ANGLE = re.compile(
-    rf"(?P<before>[NSEWO])?\s*(?P<sign>{_SIGN})(?P<degrees>{_PART})\s*(?:[°º:d]\s*)?"
-    rf"(?:(?P<minutes>{_PART})\s*(?:['’′:m]\s*)?(?:(?P<seconds>{_PART})\s*(?:[\"”″s]|'')?\s*)?)?"
-    r"(?P<after>[NSEWO])?",
+    rf"(?P<before>[NSEWO])?\s*(?P<sign>{_SIGN})(?P<degrees>{_PART})"
+    rf"(?:(?:\s*[°º:d]\s*|\s+)(?P<minutes>{_PART})"
+    rf"(?:(?:\s*['’′:m]\s*|\s+)(?P<seconds>{_PART}))?)?"
+    r"(?:\s*(?:[°º'’′\"”″]|''))?\s*(?P<after>[NSEWO])?",
     re.IGNORECASE,
 )
 _AMBIGUOUS = re.compile(rf"{_SIGN}[1-9]\d{{0,2}},\d{{3}}")
