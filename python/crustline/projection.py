@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import wraps
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from crustline.delaunay import Delaunay, points_and_how
 from crustline.errors import InputError, missing_extra, shown
 from crustline.points import Points, as_crs
 
-__all__ = ["is_geographic", "project", "to_longitude_latitude"]
+__all__ = ["is_geographic", "project", "projected", "to_longitude_latitude"]
 
 _LONGITUDE_LATITUDE = "OGC:CRS84"
 #: Mean directions shorter than this belong to points all around the globe.
@@ -64,6 +65,36 @@ def project(points: ArrayLike | Delaunay, crs: str = "auto") -> Points:
     longitude, latitude = _middle(to_longitude_latitude(points).xy)
     name = f"+proj=stere +lat_0={latitude!r} +lon_0={longitude!r} +datum=WGS84 +units=m"
     return _transformed(points, source, _crs(name), name)
+
+
+def projected(method: Callable[..., Any], crs: str = "auto") -> Callable[..., Any]:
+    """Return a method that selects the edges of projected points.
+
+    Parameters
+    ----------
+    method : callable
+        Takes points and returns edges, such as `crust`.
+    crs : str, default "auto"
+        As for `project`.
+
+    Returns
+    -------
+    method : callable
+        Takes points with a CRS and returns edges: rows of the points as they were passed.
+
+    Examples
+    --------
+    >>> from crustline.methods import crust
+    >>> fiji = Points([(179, -17), (180, -16), (-179, -17), (-180, -18)], crs="EPSG:4326")
+    >>> projected(crust)(fiji).tolist()
+    [[0, 1], [0, 3], [1, 2], [2, 3]]
+    """
+
+    @wraps(method)
+    def select(points: Any, **parameters: Any) -> Any:
+        return method(project(points, crs), **parameters)
+
+    return select
 
 
 def to_longitude_latitude(points: Points) -> Points:

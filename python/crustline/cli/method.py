@@ -22,6 +22,7 @@ class Method:
     name: str
     function: Callable[..., Any]
     parameters: dict[str, Any]
+    project: str | None = None
 
 
 def method_options(command: Command) -> Command:
@@ -35,9 +36,20 @@ def method_options(command: Command) -> Command:
         "-p", "--parameter", "settings", multiple=True, metavar="NAME=VALUE",
         help="Any parameter of the method, such as radius=0.5.",
     )  # fmt: skip
+    @click.option(
+        "--project", metavar="CRS",
+        help="Connect the points in this CRS, such as EPSG:25832, or auto, a map about their "
+        "middle; what is written stays in the CRS of the input. Needs pyproj.",
+    )  # fmt: skip
     @functools.wraps(command)
-    def run(method: str, beta: float | None, settings: tuple[str, ...], **rest: Any) -> None:
-        command(method=_method(method, beta, settings), **rest)
+    def run(
+        method: str,
+        beta: float | None,
+        settings: tuple[str, ...],
+        project: str | None,
+        **rest: Any,
+    ) -> None:
+        command(method=_method(method, beta, settings, project), **rest)
 
     return run
 
@@ -48,12 +60,16 @@ def _matching(context: click.Context, option: click.Parameter, start: str) -> li
     return [name for name in METHODS if name.startswith(start)]
 
 
-def _method(name: str, beta: float | None, settings: tuple[str, ...]) -> Method:
+def _method(
+    name: str, beta: float | None, settings: tuple[str, ...], project: str | None
+) -> Method:
     from crustline.methods import METHODS, check_parameters
+    from crustline.projection import projected
 
     if name not in METHODS:
         raise InputError(f"no method is called {name!r}: choose one of {', '.join(METHODS)}")
-    method = Method(name, METHODS[name], dict(map(_setting, settings)))
+    function = METHODS[name] if project is None else projected(METHODS[name], project)
+    method = Method(name, function, dict(map(_setting, settings)), project)
     if beta is not None:
         method.parameters["beta"] = beta
     check_parameters(method.function, method.parameters, name, "add -p {}=VALUE")

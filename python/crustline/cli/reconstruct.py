@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
@@ -12,6 +13,7 @@ from crustline.cli.method import Method, method_options
 from crustline.cli.output import Output, counted, output_options
 from crustline.cli.progress import progress_bar
 from crustline.cli.source import Source, source_options
+from crustline.errors import FormatWarning
 
 if TYPE_CHECKING:
     from crustline.reconstruction import Reconstruction
@@ -46,6 +48,13 @@ def reconstruction(source: Source, method: Method, quiet: bool) -> Iterator[Reco
     from crustline.reconstruction import Reconstruction
 
     points = source.read()
+    if method.project is None and points.crs in ("EPSG:4326", "OGC:CRS84"):
+        warnings.warn(
+            f"{source.name}: longitudes and latitudes are taken for coordinates of the plane: "
+            "add --project auto",
+            FormatWarning,
+            stacklevel=2,
+        )
     with progress_bar(quiet) as progress:
         delaunay = Delaunay(points, threads=source.threads, progress=progress)
         yield Reconstruction(delaunay, method.function, **method.parameters)
