@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import subprocess
+import sys
 import warnings
 from pathlib import Path
 
@@ -374,6 +376,22 @@ def test_a_ring_across_the_180th_meridian_is_one_ring() -> None:
     curves = cl.trace(fiji, cl.crust(cl.project(fiji)))
     assert curves.closed.tolist() == [True]
     assert len(curves[0]) == 40
+
+
+def test_the_command_projects_and_warns_where_it_does_not(tmp_path: Path) -> None:
+    around = ring(40, 3.0, (179.5, -17))
+    around[:, 0] = (around[:, 0] + 180) % 360 - 180
+    cl.write(cl.Points(around, crs="EPSG:4326"), tmp_path / "fiji.gpkg")
+    command = [sys.executable, "-m", "crustline", "reconstruct", str(tmp_path / "fiji.gpkg")]
+    plane, globe = (
+        subprocess.run([*command, *more], capture_output=True, text=True, check=True).stderr
+        for more in ([], ["--project", "auto", "-o", str(tmp_path / "fiji.geojson")])
+    )
+    assert "add --project auto" in plane
+    assert "1 ring, 0 open curves" in globe
+    assert "warning" not in globe
+    again = cl.read(tmp_path / "fiji.geojson")
+    assert set(map(tuple, again.xy.tolist())) == set(map(tuple, around.tolist()))
 
 
 def test_a_ring_around_the_pole_is_one_ring() -> None:
