@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 SOURCES := $(shell find crates python -name '*.rs' -o -name '*.pyi' -o -name 'Cargo.toml') Cargo.toml Cargo.lock pyproject.toml
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo test test-all test-rust test-python lint types format bench bench-quick bench-instructions fuzz fuzz-readers figures experiment wheel clean
+.PHONY: help build demo test test-all test-rust test-python lint types format accuracy bench bench-quick bench-instructions fuzz fuzz-readers figures experiment wheel clean
 
 help: ## Show this list.
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-20s %s\n", $$1, $$2}'
@@ -58,6 +58,10 @@ format: build ## Format both languages.
 bench: build ## Time crustline against its rivals; writes docs/benchmarks.md (tens of minutes).
 	$(BIN)/pip install --quiet --disable-pip-version-check -r benchmarks/requirements.txt
 	$(BIN)/python -m benchmarks.run
+
+accuracy: build ## Measure how often methods are right, on CASES=FOLDER too; writes docs/accuracy.md.
+	$(BIN)/pip install --quiet --disable-pip-version-check -r benchmarks/requirements.txt
+	$(BIN)/python -m benchmarks.accuracy.run $(CASES)
 
 bench-quick: build ## The same in under a minute, to the terminal.
 	$(BIN)/pip install --quiet --disable-pip-version-check -r benchmarks/requirements.txt
