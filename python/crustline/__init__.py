@@ -12,6 +12,7 @@ from crustline._core import __version__
 from crustline.certify import Certificate, certify
 from crustline.curves import Curve, Curves, Polygon, trace
 from crustline.delaunay import Delaunay
+from crustline.denoise import Denoised, denoise
 from crustline.errors import CrustlineError, FormatError, InputError, MissingExtraError
 from crustline.formats import read, read_curves, write
 from crustline.interpolant import Interpolant, local_feature_size
@@ -62,6 +63,7 @@ __all__ = [
     "Curve",
     "Curves",
     "Delaunay",
+    "Denoised",
     "FormatError",
     "InputError",
     "Interpolant",
@@ -85,6 +87,7 @@ __all__ = [
     "crawl",
     "crossing_angle_graph",
     "crust",
+    "denoise",
     "gabriel",
     "gamma_graph",
     "gathan",

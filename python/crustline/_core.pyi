@@ -135,3 +135,10 @@ class Interpolant:
     def measures(
         self, threads: int | None = None, progress: _Progress | None = None
     ) -> tuple[_Floats, _Floats, _Integers]: ...
+
+def ridge(
+    delaunay: Delaunay,
+    noise: _Floats | None,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> tuple[_Integers, _Floats, _Floats, _Integers, _Floats]: ...

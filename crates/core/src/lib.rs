@@ -23,6 +23,7 @@ pub mod nesting;
 mod parts;
 mod point;
 mod progress;
+pub mod ridge;
 mod space;
 pub mod tiles;
 pub mod trace;

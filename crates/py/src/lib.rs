@@ -11,6 +11,7 @@ mod interpolant;
 mod medial_axis;
 mod methods;
 mod nesting;
+mod ridge;
 mod tiles;
 mod trace;
 
@@ -37,6 +38,8 @@ mod _core {
     use crate::methods::select;
     #[pymodule_export]
     use crate::nesting::shells;
+    #[pymodule_export]
+    use crate::ridge::ridge;
     #[pymodule_export]
     use crate::tiles::{candidates, decide, join_chains, stars, trace_tile};
     #[pymodule_export]

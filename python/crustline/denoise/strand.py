@@ -1,0 +1,206 @@
+"""Strands: the parts of a ridge, each a curve with the rows that belong to it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crustline.arrays import BoolArray, FloatArray, IntArray
+from crustline.curves import trace
+from crustline.delaunay import Delaunay
+from crustline.denoise.polygon import Feet, Polygon
+from crustline.denoise.smoother import fit
+
+#: Points of a ridge, and rows, that a strand has at least, but where nothing has moved.
+CRESTS, ROWS = 4, 8
+#: Deviations of the noise from the curve beyond which a row is an outlier.
+FAR = 4.0
+#: Deviations of the noise that a strand is long at least.
+LONG = 6.0
+#: Noise over the spacing that is none to speak of.
+CLEAN = 0.03
+#: Nodes in a window of the ridge, and on a strand at least.
+NODES, FEWEST = 3, 24
+
+
+@dataclass(frozen=True, eq=False)
+class Strand:
+    """A curve, and the rows that it stands for."""
+
+    vertices: FloatArray
+    closed: bool
+    uncertainty: FloatArray
+    rows: IntArray
+    owners: IntArray
+    """The vertex of each of the rows."""
+    noise: FloatArray
+    """The deviation of the noise at each of the rows."""
+    unchanged: bool
+
+    @property
+    def edges(self) -> IntArray:
+        """The edges between successive vertices."""
+        count = len(self.vertices)
+        first = np.arange(count if self.closed else count - 1)
+        return np.column_stack((first, (first + 1) % count))
+
+    def of_rows(self, rows: IntArray) -> Strand:
+        """Return it for points of which the present ones are the `rows`."""
+        return replace(self, rows=rows[self.rows])
+
+
+@dataclass(frozen=True, eq=False)
+class _Ridge:
+    """What the core knows of each row and of each point of the ridge."""
+
+    noise: FloatArray
+    width: FloatArray
+    """The windows: with little noise about twice the spacing."""
+    rows: IntArray
+    """The row that each point of the ridge comes from."""
+    at: FloatArray
+    still: BoolArray
+    """Whether a point of the ridge is where it was."""
+
+
+def strands(
+    delaunay: Delaunay, found: tuple[Any, ...], method: Callable[..., ArrayLike]
+) -> list[Strand]:
+    """Return the strands of a ridge that the core found."""
+    ridge = _of_rows(delaunay, found)
+    if len(ridge.at) < 2:
+        return []
+    curves = trace(ridge.at, method(Delaunay(ridge.at)))
+    bounds = zip(curves.offsets[:-1], curves.offsets[1:], curves.closed, strict=True)
+    parts = [(curves.indices[a:b], bool(closed)) for a, b, closed in bounds]
+    parts = [part for part in parts if len(part[0]) >= CRESTS or ridge.still[part[0]].all()]
+    if not parts:
+        return []
+    starts = [_start(ridge, *part) for part in parts]
+    owner = _owners(delaunay.points.xy, starts, ridge)
+    made = []
+    for number, ((crests, _), start) in enumerate(zip(parts, starts, strict=True)):
+        made.append(
+            _strand(delaunay.points.xy, ridge, crests, start, np.flatnonzero(owner == number))
+        )
+    return [strand for strand in made if strand is not None]
+
+
+def _of_rows(delaunay: Delaunay, found: tuple[Any, ...]) -> _Ridge:
+    first_rows, noise, first, vertices, at = found
+    count = len(delaunay)
+    by_row = np.full((2, count), np.nan)
+    by_row[:, first_rows] = noise, np.maximum(first, 1.5 * np.nan_to_num(noise))
+    for row, same in delaunay.duplicates:
+        by_row[:, row] = by_row[:, same]
+    rows = first_rows[vertices]
+    still = (delaunay.points.xy[rows] == at).all(axis=1)
+    return _Ridge(by_row[0], by_row[1], rows, at, still)
+
+
+def _start(ridge: _Ridge, crests: IntArray, closed: bool) -> Polygon:
+    """Return the strand as evenly spaced nodes, several in a window."""
+    path = Polygon(ridge.at[crests], closed)
+    spacing = np.nanmedian(ridge.width[ridge.rows[crests]]) / NODES
+    count = int(np.clip(path.length / spacing, FEWEST, 20 * len(ridge.noise) + FEWEST))
+    return path.resampled(count, smooth=False)
+
+
+def _owners(points: FloatArray, starts: list[Polygon], ridge: _Ridge) -> IntArray:
+    """Return the number of the nearest strand of each row, -1 for rows far from all."""
+    from scipy.spatial import cKDTree
+
+    numbers = np.repeat(np.arange(len(starts)), [len(start) for start in starts])
+    distance, node = cKDTree(np.vstack([start.nodes for start in starts])).query(points)
+    reach = (FAR + 2) * np.nan_to_num(ridge.noise) + ridge.width
+    return np.where(distance <= reach, numbers[node], -1)
+
+
+def _strand(
+    points: FloatArray, ridge: _Ridge, crests: IntArray, start: Polygon, rows: IntArray
+) -> Strand | None:
+    # In the order of the coordinates, so that sums do not depend on that of the rows.
+    rows = rows[np.lexsort((ridge.noise[rows], *points[rows].T))]
+    noise = np.nan_to_num(ridge.noise[rows], nan=float(np.nanmedian(ridge.noise)))
+    floor = 1e-3 * start.length / max(len(rows), 1)
+    noise = np.maximum(noise, floor)
+    is_still = bool(ridge.still[crests].all())
+    spacing = start.length / max(len(rows), 1)
+    if is_still and (len(rows) < ROWS or np.median(ridge.noise[rows]) < 2 * CLEAN * spacing):
+        return _kept(points, ridge, crests, start.closed)
+    if len(rows) < ROWS or start.length < LONG * np.median(noise):
+        return None
+    fitted = fit(points[rows], noise, start)
+    noise = noise * fitted.deviation
+    feet = fitted.polygon.feet(points[rows])
+    if np.median(noise) < CLEAN * spacing:
+        if is_still:
+            return _kept(points, ridge, crests, start.closed)
+        return _ordered(points, rows, feet, noise, start.closed)
+    return _new(points, rows, fitted.polygon, feet, noise, fitted.uncertainty)
+
+
+def _kept(points: FloatArray, ridge: _Ridge, crests: IntArray, closed: bool) -> Strand:
+    """Return the strand of points that have not moved."""
+    rows = ridge.rows[crests]
+    zero = np.zeros(len(rows))
+    return Strand(points[rows], closed, zero, rows, np.arange(len(rows)), ridge.noise[rows], True)
+
+
+def _ordered(
+    points: FloatArray, rows: IntArray, feet: Feet, noise: FloatArray, closed: bool
+) -> Strand:
+    """Return the strand through the points themselves, in their order along the curve."""
+    _, first = np.unique(points[rows], axis=0, return_index=True)
+    order = first[np.argsort(feet.along[first], kind="stable")]
+    chosen = rows[order]
+    zero = np.zeros(len(chosen))
+    return Strand(points[chosen], closed, zero, chosen, np.arange(len(chosen)), noise[order], True)
+
+
+def _new(
+    points: FloatArray,
+    rows: IntArray,
+    polygon: Polygon,
+    feet: Feet,
+    noise: FloatArray,
+    uncertainty: FloatArray,
+) -> Strand:
+    """Return the strand through new vertices, without outliers and cut where the points end."""
+    near = np.abs(feet.offset) <= FAR * noise
+    first, last = (0, len(polygon)) if polygon.closed else _ends(polygon, feet, noise, near)
+    owners = np.rint(feet.along).astype(int)
+    owners = owners % len(polygon) if polygon.closed else owners.clip(first, last - 1) - first
+    return Strand(
+        polygon.nodes[first:last],
+        polygon.closed,
+        uncertainty[first:last],
+        rows[near],
+        owners[near],
+        noise[near],
+        False,
+    )
+
+
+def _ends(polygon: Polygon, feet: Feet, noise: FloatArray, near: BoolArray) -> tuple[int, int]:
+    """Return the range of nodes of an open curve between which the points' density says it lies.
+
+    A few deviations inside, the density is not touched by the noise at the end; as many points as
+    lie outside of that place have room for so much length at this density.
+    """
+    steps, along = len(polygon) - 1, feet.along[near]
+    step = polygon.length / steps
+    inset = min(3.0 * float(np.median(noise)) / step, steps / 4)
+    middle = (along > inset) & (along < steps - inset)
+    density = middle.sum() / max(steps - 2 * inset, 1e-9)
+    if not density:
+        return 0, steps + 1
+    low = inset - (along <= inset).sum() / density
+    high = steps - inset + (along >= steps - inset).sum() / density
+    first = int(np.clip(round(low), 0, steps // 4))
+    last = int(np.clip(round(high), steps - steps // 4, steps))
+    return first, last + 1

@@ -1,0 +1,210 @@
+"""Noisy points: curves near them, how near, and what is refused; and clean points, left alone."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+import crustline as cl
+import generators as make
+from crustline.denoise.polygon import Polygon
+from crustline.denoise.smoother import fit
+from generators import Rows
+
+pytest.importorskip("scipy", reason="denoise needs scipy")
+
+SHAPES: dict[str, tuple[list[tuple[Callable[[Rows], Rows], bool]], int]] = {
+    "circle": ([(lambda t: np.column_stack((np.cos(t), np.sin(t))), True)], 200),
+    "flower": (
+        [(lambda t: ((1 + 0.3 * np.cos(3 * t)) * np.array((np.cos(t), np.sin(t)))).T, True)],
+        300,
+    ),
+    "wave": ([(lambda t: np.column_stack((t, np.sin(2 * t) / 3)), False)], 200),
+    "two rings": (
+        [
+            (lambda t: np.column_stack((np.cos(t), np.sin(t))), True),
+            (lambda t: np.column_stack((2.2 + 0.7 * np.cos(t), 0.7 * np.sin(t))), True),
+        ],
+        400,
+    ),
+    "ring and line": (
+        [
+            (lambda t: np.column_stack((0.8 * np.cos(t), 2 + 0.8 * np.sin(t))), True),
+            (lambda t: np.column_stack((t - 3, 0.2 * np.cos(t))), False),
+        ],
+        400,
+    ),
+}  # fmt: skip
+
+
+def noisy(name: str, ratio: float, seed: int) -> tuple[Rows, Rows, float]:
+    """Points with noise of so many times their spacing, the true curves finely, and the noise."""
+    rng = np.random.default_rng(seed)
+    parts, count = SHAPES[name]
+    truth = [curve(np.linspace(0, 2 * np.pi, 4001)) for curve, _ in parts]
+    lengths = [np.hypot(*np.diff(path, axis=0).T).sum() for path in truth]
+    spacing = sum(lengths) / count
+    points = []
+    for path, length in zip(truth, lengths, strict=True):
+        along = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))))
+        steps = round(length / spacing)
+        at = (np.arange(steps) + rng.uniform(0.2, 0.8, steps)) / steps * length
+        points.append(np.column_stack([np.interp(at, along, x) for x in path.T]))
+    exact = rng.permutation(np.vstack(points))
+    return exact + rng.normal(0, ratio * spacing, exact.shape), np.vstack(truth), ratio * spacing
+
+
+def topology(found: cl.Denoised) -> tuple[int, int]:
+    rings = int(found.curves.closed.sum())
+    return rings, len(found.curves) - rings
+
+
+def distances(curves: cl.Curves, truth: Rows) -> Rows:
+    """The distances of many places of the curves from the truth."""
+    spatial = pytest.importorskip("scipy.spatial")
+    places = []
+    for curve in curves:
+        path = Polygon(curves.points.xy[curve.indices], curve.closed)
+        places.append(path.resampled(2000, smooth=False).nodes)
+    return np.asarray(spatial.cKDTree(truth).query(np.vstack(places))[0])
+
+
+@pytest.mark.parametrize("name", SHAPES)
+@pytest.mark.parametrize("ratio", [0.25, 0.5, 1.0, 2.0])
+def test_rings_lines_and_components_are_kept_and_near(name: str, ratio: float) -> None:
+    expected = [closed for _, closed in SHAPES[name][0]]
+    for seed in range(2):
+        points, truth, noise = noisy(name, ratio, seed)
+        found = cl.denoise(points)
+        assert topology(found) == (sum(expected), len(expected) - sum(expected))
+        assert np.sqrt((distances(found.curves, truth) ** 2).mean()) < 0.6 * noise
+        known = found.noise[np.isfinite(found.noise)]
+        assert 0.75 * noise < np.median(known) < 1.3 * noise
+
+
+@pytest.mark.parametrize("noise", [0.023, 0.059, 0.117, 0.175])
+def test_a_circle_is_fitted_nearly_as_well_as_by_a_circle(noise: float) -> None:
+    angle = 2 * np.pi * np.arange(200) / 200
+    ratios = []
+    for seed in range(5):
+        rng = np.random.default_rng(seed)
+        points = np.column_stack((np.cos(angle), np.sin(angle))) + rng.normal(0, noise, (200, 2))
+        found = cl.denoise(points)
+        assert topology(found) == (1, 0)
+        radii = np.hypot(*found.curves.points.xy.T)
+        ratios.append(np.sqrt(((radii - 1) ** 2).mean()) / noise)
+        # As uncertain as it says, within a factor of 2.5.
+        assert np.abs(radii - 1).mean() < 2.5 * found.uncertainty.mean()
+    # The best circle has an error of about sqrt(3 / 200) of the noise, and the bend adds to it.
+    assert np.median(ratios) < 1.5 * (math.sqrt(3 / 200) + noise / 2)
+
+
+def test_every_row_has_a_vertex_near_it_or_is_an_outlier() -> None:
+    points, _, noise = noisy("flower", 1.0, 3)
+    found = cl.denoise(np.vstack((points, [(5, 5), (-4, 3)])))
+    assert {300, 301} <= set(found.outliers.tolist()) or {len(points), len(points) + 1} <= set(
+        found.outliers.tolist()
+    )
+    inside = found.vertices >= 0
+    assert inside.mean() > 0.97
+    vertices = found.curves.points.xy[found.vertices[inside]]
+    assert np.hypot(*(found.points.xy[inside] - vertices).T).max() < 5 * noise
+    some = int(found.vertices[inside][0])
+    assert found.rows(some).tolist() == np.flatnonzero(found.vertices == some).tolist()
+
+
+@pytest.mark.parametrize("name", make.SMOOTH_CURVES)
+@pytest.mark.parametrize("r", [0.1, 0.2, 0.3])
+def test_clean_samples_are_left_alone(name: str, r: float) -> None:
+    sample = cl.r_sample(make.SMOOTH_CURVES[name], r, seed=1)
+    found = cl.denoise(sample.points)
+    assert found.unchanged.all()
+    assert len(found.curves)
+    kept = found.vertices >= 0
+    assert (found.curves.points.xy[found.vertices[kept]] == sample.points[kept]).all()
+    assert kept.all()
+    assert (found.uncertainty == 0).all()
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("count", [50, 300, 1000])
+def test_pure_noise_gives_no_curve(count: int, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    for points in (rng.random((count, 2)), rng.normal(size=(count, 2))):
+        found = cl.denoise(points)
+        assert (found.vertices < 0).mean() > 0.9
+
+
+def test_several_passes_give_one_line() -> None:
+    rng = np.random.default_rng(4)
+    t = np.linspace(0, 1, 300)
+    track = np.column_stack((6 * t, np.sin(6 * t) + 0.3 * np.sin(15 * t)))
+    passes = [track[::step] for step in (1, 2, 1, 3)]
+    points = np.vstack([each + rng.normal(0, 0.05, each.shape) for each in passes])
+    found = cl.denoise(points)
+    assert topology(found) == (0, 1)
+    assert np.sqrt((distances(found.curves, track) ** 2).mean()) < 0.02
+    assert len(found.outliers) < 0.02 * len(points)
+
+
+def test_time_beside_the_points_is_kept_and_changes_nothing() -> None:
+    points, _, _ = noisy("wave", 1.0, 0)
+    timed = cl.Points(points, columns={"time": np.arange(len(points))})
+    found = cl.denoise(timed)
+    assert found.points == timed
+    assert found.curves == cl.denoise(points).curves
+
+
+def test_the_order_of_rows_and_the_number_of_threads_change_nothing() -> None:
+    points, _, _ = noisy("two rings", 1.0, 5)
+    found = cl.denoise(points)
+    order = np.random.default_rng(0).permutation(len(points))
+    moved = cl.denoise(points[order])
+    assert (moved.curves.points.xy == found.curves.points.xy).all()
+    assert (moved.vertices == found.vertices[order]).all()
+    assert cl.denoise(cl.Delaunay(points, threads=1)) == found
+
+
+def test_noise_can_be_given_of_all_points_and_of_each() -> None:
+    points, _, noise = noisy("circle", 1.0, 6)
+    for given in (noise, np.full(len(points), noise)):
+        assert topology(cl.denoise(points, noise=given)) == (1, 0)
+    rng = np.random.default_rng(7)
+    angle = rng.uniform(0, 2 * np.pi, 1500)
+    each = 0.02 + 0.03 * (1 + np.cos(angle))
+    ellipse = np.column_stack((2 * np.cos(angle), np.sin(angle)))
+    found = cl.denoise(ellipse + rng.normal(size=ellipse.shape) * each[:, None], noise=each)
+    assert topology(found) == (1, 0)
+
+
+@pytest.mark.parametrize(
+    ("points", "noise", "message"),
+    [
+        ([(0, 0), (1, 1)], None, r"the 2 points are at 2 different places: .* three at least"),
+        ([(1, 2)] * 5, None, r"the 5 points are at 1 different places"),
+        ([(0, 0), (1, 0), (2, 1)], -1, r"noise must be 0 or more, not -1"),
+        ([(0, 0), (1, 0), (2, 1)], [0.1, 0.1], r"one for each of the 3 rows, not of shape \(2,\)"),
+        ([(0, 0), (1, 0), (2, 1)], [0.1, -0.2, 0.1], r"row 1: noise must be 0 or more, not -0.2"),
+        ([(0, 0), (1, 0), (2, 1)], [0.1, math.nan, 0], r"row 1: noise must be 0 or more, not nan"),
+        ([(0, 0), (1, 0), (2, 1)], 0, r"noise is 0 everywhere: leave it out"),
+        ([(0, 0), (1, 0), (2, 1)], 50, r"noise of 50 is larger than the extent .* 2.23607"),
+        ([(0, 0), (1, math.inf), (2, 1)], None, r"row 1"),
+    ],
+)
+def test_bad_input_is_refused_in_a_sentence(points: Any, noise: Any, message: str) -> None:
+    with pytest.raises(cl.InputError, match=message):
+        cl.denoise(points, noise=noise)
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_circles_and_lines_cost_nothing(closed: bool) -> None:
+    # Without noise the fit of an arc is the arc, but for the sagitta of its 60 chords.
+    angle = np.linspace(0, 2 * np.pi if closed else 2.0, 200, endpoint=not closed)
+    arc = np.column_stack((np.cos(angle), np.sin(angle)))
+    start = Polygon(1.02 * arc, closed).resampled(60)
+    found = fit(arc, np.full(len(arc), 0.01), start)
+    assert np.abs(np.hypot(*found.polygon.nodes.T) - 1).max() < 1 - math.cos(math.pi / 60)
