@@ -75,7 +75,7 @@ def as_floats(name: str, values: npt.ArrayLike) -> FloatArray:
     array([0., 1.])
     """
     try:
-        array = np.asarray(_not_too_deep(values, most=8))
+        array = np.asarray(not_too_deep(values, most=8))
         if array.dtype.kind == "O" and all(_is_real(each) for each in array.flat):
             array = array.astype(np.float64)
     except (ValueError, TypeError, OverflowError):
@@ -89,7 +89,7 @@ def _is_real(value: object) -> bool:
     return isinstance(value, Real) and not isinstance(value, bool | np.bool_)
 
 
-def _not_too_deep(values: Any, most: int) -> Any:
+def not_too_deep(values: Any, most: int) -> Any:
     """Return sequences of sequences if they are not nested more than so often.
 
     What holds itself is nested without end, and NumPy would look for it.
@@ -112,7 +112,7 @@ def _as_array(points: npt.ArrayLike) -> npt.NDArray[Any]:
         row = int(np.argwhere(np.ma.getmaskarray(points))[0][0])
         raise InputError(f"points: row {row} is masked: remove the masked rows first")
     try:
-        return np.asarray(_not_too_deep(points, most=3))
+        return np.asarray(not_too_deep(points, most=3))
     except (ValueError, TypeError, OverflowError):
         raise InputError(_name_bad_row(points)) from None
 
@@ -217,7 +217,7 @@ def as_rows(rows: npt.ArrayLike, n: int) -> IntArray:
     ([0, 2], [2, 0])
     """
     try:
-        array = np.asarray(_not_too_deep(rows, most=2))
+        array = np.asarray(not_too_deep(rows, most=2))
     except (ValueError, TypeError, OverflowError):
         raise InputError("rows: they are not all integers: pass a flat list of rows") from None
     if array.dtype.kind == "b" and array.shape == (n,):
@@ -265,7 +265,7 @@ def as_edges(edges: npt.ArrayLike, n: int) -> IntArray:
     [[0, 1], [1, 2]]
     """
     try:
-        array = np.asarray(_not_too_deep(edges, most=3))
+        array = np.asarray(not_too_deep(edges, most=3))
     except (ValueError, TypeError, OverflowError):
         raise InputError(
             "edges: the rows are not all pairs of integers: pass rows of i, j"

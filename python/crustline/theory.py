@@ -79,7 +79,8 @@ def _defined_on(name: str, low: float, high: float) -> Callable[[Callable[[Any],
                     f"{formula.__name__} is defined for {name} in [{low:.6g}, {high:.6g}], "
                     f"got {values[outside].flat[0]}"
                 )
-            result = formula(values)
+            with np.errstate(over="ignore"):
+                result = formula(values)
             return float(result) if values.ndim == 0 else result
 
         return bound

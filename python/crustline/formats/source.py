@@ -47,7 +47,7 @@ class Source:
             self.given = bytes(self.given)
         if not isinstance(self.given, os.PathLike) and not hasattr(self.given, "read"):
             _check_iterable(self.given)
-        self.name = _shown(self.name or _name_of(self.given))
+        self.name = short_name(self.name or _name_of(self.given))
         refuse_null(self.given)
 
     @property
@@ -220,7 +220,8 @@ def _as_bytes(chunk: Any) -> bytes:
 
 
 def _check_iterable(given: Any) -> None:
-    if isinstance(given, Mapping) or not isinstance(given, Iterable):
+    alone = isinstance(given, Mapping) or getattr(given, "ndim", 1) == 0
+    if alone or not isinstance(given, Iterable):
         raise InputError(f"path is {shown(given)}: give a path, bytes, or a file-like object")
 
 
@@ -262,7 +263,7 @@ def likely_encoding(content: bytes) -> str:
     return "utf-8"
 
 
-def _shown(name: str) -> str:
+def short_name(name: str) -> str:
     """Return a name that fits into a sentence; its end tells more than its middle."""
     return name if len(name) <= 160 else f"{name[:60]}…{name[-90:]}"
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from crustline.errors import FormatError, InputError, shown
-from crustline.formats.source import reason_of, refuse_null
+from crustline.formats.source import reason_of, refuse_null, short_name
 
 __all__ = ["Target", "check_writable"]
 
@@ -43,7 +43,7 @@ class Target:
     def name(self) -> str:
         """What messages call it."""
         if self._is_path:
-            return str(os.fspath(self.given))
+            return short_name(str(os.fspath(self.given)))
         return "standard output" if self.given == "-" else f"<{type(self.given).__name__}>"
 
     @property

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from crustline.arrays import FloatArray, as_points
+from crustline.arrays import FloatArray, as_points, not_too_deep
 from crustline.errors import InputError, missing_extra
 from crustline.scalars import as_positive, as_real, as_size, as_whole
 from crustline.shapes.curve import (
@@ -283,7 +283,7 @@ def fourier(coefficients: npt.ArrayLike) -> SmoothCurve:
     [[2.0, 1.0], [0.0, 3.0]]
     """
     try:
-        c = np.asarray(coefficients, dtype=np.complex128)
+        c = np.asarray(not_too_deep(coefficients, most=2), dtype=np.complex128)
     except (ValueError, TypeError, OverflowError):
         c = np.empty((), dtype=np.complex128)
     if c.ndim != 1 or not np.isfinite(c).all():

@@ -60,7 +60,7 @@ def bezier_path(source: str | os.PathLike[str], *, smooth_joins: float = 1.0) ->
     for i, pieces in enumerate(_svg_subpaths(source)):
         loops.append(bezier_loop(smoothed(pieces, math.radians(tolerance), f"subpath {i}")))
     if not loops:
-        raise InputError(f"{os.fspath(source)[:60] or 'an empty text'} holds no path")
+        raise InputError(f"{shown(os.fspath(source)) if source else 'an empty text'} holds no path")
     return SmoothCurve(tuple(loops))
 
 
