@@ -18,10 +18,8 @@
 //! at most u (|d c′| + |d′ c|) + u |d c′ − d′ c| ≤ 2 u r r′, by Cauchy's inequality again. So are d d′ − c c′ and their like. In short:
 //!
 //! 2. a sum or difference of two products of one number each of two angles is off by at most 13.5 u · `size` · `size′`.
-//!
-//! Underflow takes away some 2⁻¹⁰⁷⁴ from a product, which is multiplied by no more than 2¹⁶⁰ (coordinates are below 10²⁰ by then).
 
-use crate::exact::sign::ROUNDING;
+use crate::exact::filter::{ROUNDING, UNDERFLOW};
 use crate::point::{Point, cross, dot, sub};
 use std::cmp::Ordering;
 
@@ -35,9 +33,6 @@ pub struct Angle {
     /// The sum of their sizes, which their errors are relative to.
     pub size: f64,
 }
-
-/// More than all that underflow can take away.
-const UNDERFLOW: f64 = 1e-150;
 
 impl Angle {
     /// The angle at `apex` from `p` to `q`.

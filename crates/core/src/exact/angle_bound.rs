@@ -5,6 +5,7 @@
 //! angle by its sine.
 
 use crate::exact::constant::{Constant, fraction};
+use crate::exact::filter;
 use crate::exact::sign::{self, Form, Number};
 use crate::point::{Point, cross, dot, sub};
 use num_bigint::BigInt;
@@ -74,13 +75,12 @@ impl AngleBound {
     #[inline]
     #[must_use]
     pub fn compare(&self, p: Point, q: Point, r: Point) -> Ordering {
-        /// More than all that underflow can take away.
-        const UNDERFLOW: f64 = 1e-150;
         let (u, v) = (sub(p, r), sub(q, r));
         let excess = dot(u, v) - self.cotangent * cross(u, v).abs();
         let size = (u[0].abs() + u[1].abs()) * (v[0].abs() + v[1].abs());
-        let bound = (16.0 * f64::EPSILON * size + UNDERFLOW) * (1.0 + self.cotangent.abs());
-        if excess.abs() > bound { excess.total_cmp(&0.0) } else { self.exact(p, q, r) }
+        // The cotangent counts for eight operations, which is more than lead to it.
+        filter::sign(excess, 15, size, 1.0 + self.cotangent.abs())
+            .unwrap_or_else(|| self.exact(p, q, r))
     }
 
     #[cold]

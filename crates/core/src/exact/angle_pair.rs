@@ -2,6 +2,7 @@
 
 use crate::exact::angle::Angle;
 use crate::exact::constant::{Constant, fraction};
+use crate::exact::filter;
 use crate::exact::sign::{self, Form, Number};
 use crate::point::Point;
 use num_bigint::BigInt;
@@ -40,18 +41,15 @@ impl AnglePair {
     #[inline]
     #[must_use]
     pub fn admits(&self, p: Point, q: Point, left: Point, right: Point) -> bool {
-        /// More than all that underflow can take away.
-        const UNDERFLOW: f64 = 1e-150;
         let [x, y, z] = self.rounded;
         let (a, b) = (Angle::at(left, p, q), Angle::at(right, q, p));
         let mixed = a.dot * b.cross + a.cross * b.dot;
         let value = x * (a.dot * b.dot) + y * mixed + z * (a.cross * b.cross);
         let weight = x.abs() + 2.0 * y.abs() + z.abs();
-        let bound = (32.0 * f64::EPSILON * (a.size * b.size) + UNDERFLOW) * weight;
-        if value.abs() > bound {
-            return value > 0.0;
-        }
-        sign::sign(self, p, &[q, left, right]) != Less
+        let size = a.size * b.size;
+        // Four operations lead to each product of an angle and four to their sum; sizes are off by nine more.
+        let sign = filter::sign(value, 24, size, weight);
+        sign.unwrap_or_else(|| sign::sign(self, p, &[q, left, right])) != Less
     }
 }
 

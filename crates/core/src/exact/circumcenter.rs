@@ -1,6 +1,7 @@
 //! Voronoi vertices: the circumcenters of the triangles, estimated with an error bound and exact where asked.
 
-use crate::exact::sign::{self, Form, Number, ROUNDING};
+use crate::exact::filter::ROUNDING;
+use crate::exact::sign::{self, Form, Number};
 use crate::point::{Point, cross, dot, sub};
 
 /// A circumcenter relative to some origin, and a bound on the distance to the true one.
@@ -42,7 +43,7 @@ impl Center {
 
 /// The circumcenter of the counter-clockwise triangle `a`, `b`, `c` relative to `a`, to about eleven digits.
 ///
-/// Triangles too flat for floating point are solved in integers; the result can be infinite.
+/// Triangles too flat for floating point are solved more precisely; the result can be infinite.
 #[must_use]
 pub fn circumcenter([a, b, c]: [Point; 3]) -> Point {
     let Center { at, error } = Center::estimate([a, b, c], a);

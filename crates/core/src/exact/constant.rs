@@ -3,7 +3,8 @@
 //! A parameter such as β is a double, so a ratio of whole numbers: a form multiplied by the
 //! denominator has whole coefficients, and its sign is exact in the parameter, too.
 
-use crate::exact::sign::{Number, decompose};
+use crate::exact::integer::decompose;
+use crate::exact::sign::Number;
 use num_bigint::{BigInt, Sign};
 
 /// A whole number, kept as digits of 32 bits, the leading one first.

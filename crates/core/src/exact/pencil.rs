@@ -5,9 +5,21 @@
 //! t < τ(v), with τ(v) = (v−p)·(v−q) / 2 (q−p)×(v−p). The paper's disks "touching s₁ and s₂" are this pencil.
 
 use crate::exact::circumcenter::{Center, HomogeneousCenter};
-use crate::exact::sign::{self, Form, Number, ROUNDING};
+use crate::exact::double_double::DoubleDouble;
+use crate::exact::filter::{Approximate, ROUNDING};
+use crate::exact::predicates::in_circle;
+use crate::exact::sign::{self, Form, Number};
 use crate::point::{Point, cross, dot, length, sub};
+use std::cell::OnceCell;
 use std::cmp::Ordering::{self, Equal, Greater, Less};
+
+/// A disk is solved for where floating point leaves its center uncertain by more than this part of its radius.
+const UNCERTAIN: f64 = 1e-12;
+
+/// What rounding adds to the error of a radius; unknown where its square may underflow.
+fn of_radius(radius: f64) -> f64 {
+    if radius > 1e-140 { 8.0 * ROUNDING * radius } else { f64::INFINITY }
+}
 
 /// The circles through `p` and `q`.
 #[derive(Debug, Clone, Copy)]
@@ -24,52 +36,16 @@ pub struct Pencil {
 pub struct Vertex {
     triangle: [Point; 3],
     /// (v−p)·(v−q): negative inside the smallest circle.
-    power: Estimate,
+    power: Approximate,
     /// (q−p)×(v−p): positive to the left.
-    height: Estimate,
-}
-
-/// A value in floating point and a bound on its error.
-#[derive(Debug, Clone, Copy)]
-struct Estimate {
-    value: f64,
-    error: f64,
+    height: Approximate,
 }
 
 impl Vertex {
-    /// The counter-clockwise triangle.
+    /// The triangle that it is the circumcenter of.
     #[must_use]
     pub fn triangle(&self) -> [Point; 3] {
         self.triangle
-    }
-}
-
-impl Estimate {
-    fn sign(self) -> Option<Ordering> {
-        (self.value.abs() > self.error).then(|| self.value.total_cmp(&0.0))
-    }
-
-    fn times(self, other: Self) -> Self {
-        let value = self.value * other.value;
-        let error = self.value.abs() * other.error
-            + (other.value.abs() + other.error) * self.error
-            + 2.0 * ROUNDING * value.abs();
-        Self { value, error }
-    }
-
-    fn minus(self, other: Self) -> Self {
-        let value = self.value - other.value;
-        Self { value, error: (self.error + other.error) * 1.000_001 + ROUNDING * value.abs() }
-    }
-
-    fn over(self, other: Self) -> Self {
-        let value = self.value / other.value;
-        let relative = other.error / other.value.abs();
-        if relative.is_nan() || relative >= 0.25 {
-            return Self { value, error: f64::INFINITY };
-        }
-        let error = 2.0 * (self.error / other.value.abs() + value.abs() * relative);
-        Self { value, error: error + 2.0 * ROUNDING * value.abs() }
     }
 }
 
@@ -83,10 +59,13 @@ pub enum Circle {
 }
 
 /// A circle of a pencil in floating point, with bounds on its errors.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Disk {
     circle: Circle,
-    parameter: Estimate,
+    /// Twice the parameter.
+    parameter: Approximate,
+    /// Where the vertex on the circle is, more precisely, if that was asked for.
+    place: OnceCell<Place<DoubleDouble>>,
     /// The center relative to p.
     pub center: Point,
     /// The radius.
@@ -110,8 +89,8 @@ impl Pencil {
         let reach = at[0].abs() + at[1].abs() + from_q[0].abs() + from_q[1].abs();
         let length = self.chord[0].abs() + self.chord[1].abs();
         let error = error + 8.0 * ROUNDING * reach;
-        let power = Estimate { value: dot(at, from_q), error: error * (reach + error) };
-        let height = Estimate { value: cross(self.chord, at), error: length * error };
+        let power = Approximate::of(dot(at, from_q), error * (reach + error));
+        let height = Approximate::of(cross(self.chord, at), length * error);
         Vertex { triangle, power, height }
     }
 
@@ -119,35 +98,44 @@ impl Pencil {
     #[must_use]
     pub fn disk(&self, circle: Circle) -> Disk {
         let twice = match circle {
-            Circle::Smallest => Estimate { value: 0.0, error: 0.0 },
-            Circle::Through(vertex) => vertex.power.over(vertex.height),
+            Circle::Smallest => Approximate::ZERO,
+            Circle::Through(vertex) => vertex.power.over(&vertex.height),
         };
-        let parameter = Estimate { value: twice.value / 2.0, error: twice.error / 2.0 };
         let [dx, dy] = self.chord;
-        let center = [dx / 2.0 - parameter.value * dy, dy / 2.0 + parameter.value * dx];
+        let t = twice.value / 2.0;
+        let center = [dx / 2.0 - t * dy, dy / 2.0 + t * dx];
         let radius = dot(center, center).sqrt();
-        let error = parameter.error * (dx.abs() + dy.abs()) + 8.0 * ROUNDING * radius;
-        Disk { circle, parameter: twice, center, radius, error }
+        let error = twice.error / 2.0 * (dx.abs() + dy.abs()) + of_radius(radius);
+        match circle {
+            // An unknown error (not a number) is too large.
+            Circle::Through(vertex) if error.is_nan() || error > UNCERTAIN * radius => {
+                self.solve(vertex)
+            }
+            _ => Disk { circle, parameter: twice, place: OnceCell::new(), center, radius, error },
+        }
     }
 
-    /// The center of `circle` relative to p, its radius, and a bound on the error of both.
-    ///
-    /// To about ten digits; a center too uncertain for floating point is solved for in integers.
-    #[must_use]
-    pub fn center(&self, circle: Circle) -> (Point, f64, f64) {
-        let Disk { center, radius, error, .. } = self.disk(circle);
-        match circle {
-            Circle::Through(vertex) if error.is_nan() || error > 1e-10 * radius => {
-                let points = [&[self.q][..], &vertex.triangle].concat();
-                let points = points.try_into().expect("q and three corners");
-                let at =
-                    |axis| sign::quotient(&CenterThrough { axis }, &PlaceTwice, self.p, &points);
-                let center = [at(0), at(1)];
-                let radius = length(center);
-                (center, radius, 8.0 * ROUNDING * radius)
-            }
-            _ => (center, radius, error),
-        }
+    /// The disk inside the circle through a vertex whose place is too uncertain in floating point.
+    #[cold]
+    fn solve(&self, vertex: Vertex) -> Disk {
+        let [a, b, c] = vertex.triangle;
+        let of = |axis| {
+            let points = [self.q, a, b, c];
+            sign::quotient(&CenterThrough { axis }, &PlaceTwice, self.p, &points)
+        };
+        let center = [of(0), of(1)];
+        let radius = length(center);
+        let error = 2.0 * sign::ACCURACY * radius + of_radius(radius.min(length(self.chord)));
+        // The center is at (q − p) / 2 + t n.
+        let [dx, dy] = self.chord;
+        let from_middle = [center[0] - dx / 2.0, center[1] - dy / 2.0];
+        let square = dot(self.chord, self.chord);
+        let parameter = Approximate {
+            value: 2.0 * dot(from_middle, [-dy, dx]) / square,
+            error: 4.0 * error / length(self.chord),
+        };
+        let circle = Circle::Through(vertex);
+        Disk { circle, parameter, place: OnceCell::new(), center, radius, error }
     }
 
     /// The third corner of the triangle whose center the circle of `disk` goes through, if p and q are the other two.
@@ -166,19 +154,35 @@ impl Pencil {
     /// Is `vertex` strictly inside `disk`?
     #[must_use]
     pub fn holds(&self, disk: &Disk, vertex: &Vertex) -> bool {
-        let excess = vertex.power.minus(disk.parameter.times(vertex.height));
+        let excess = vertex.power.minus(&disk.parameter.times(&vertex.height));
         excess.sign().unwrap_or_else(|| match disk.circle {
             Circle::Smallest => self.power(vertex),
-            Circle::Through(other) => self.exact_excess(vertex, &other),
+            Circle::Through(other) => self.exact_excess(vertex, &other, &disk.place),
         }) == Less
     }
 
     /// The sign of (v−p)·(v−q): `Less` inside the smallest circle.
     #[must_use]
     pub fn power(&self, vertex: &Vertex) -> Ordering {
+        vertex.power.sign().unwrap_or_else(|| self.exact_power(vertex))
+    }
+
+    #[cold]
+    fn exact_power(&self, vertex: &Vertex) -> Ordering {
+        let ends = [self.p, self.q];
+        let apex = vertex.triangle.into_iter().find(|corner| !ends.contains(corner));
+        if let Some(apex) = apex.filter(|_| is_one_circle(vertex.triangle, &ends)) {
+            // p q is a chord of the triangle's circle, seen under between 45° and 135° if dot² < cross².
+            let [one, other] =
+                [1, -1].map(|side| sign::sign(&Turned { side }, self.p, &[self.q, apex]));
+            return match (one, other) {
+                (Equal, _) | (_, Equal) => Equal,
+                _ if one == other => Greater,
+                _ => Less,
+            };
+        }
         let [a, b, c] = vertex.triangle;
-        let exact = || sign::exact_sign(&Power, self.p, &[self.q, a, b, c]);
-        vertex.power.sign().unwrap_or_else(exact)
+        sign::exact_sign(&Power, self.p, &[self.q, a, b, c])
     }
 
     /// The side of p → q that `vertex` is on: `Greater` is left.
@@ -205,23 +209,79 @@ impl Pencil {
         }
     }
 
-    /// `Less` if `vertex` is strictly inside the circle through `other`, which is off the line p q.
-    fn exact_excess(&self, vertex: &Vertex, other: &Vertex) -> Ordering {
-        let [d, e, f] = other.triangle;
+    /// `Less` if `vertex` is strictly inside the circle through `other`, which is off the line p q; `known` is the place of that.
+    #[cold]
+    fn exact_excess(
+        &self,
+        vertex: &Vertex,
+        other: &Vertex,
+        known: &OnceCell<Place<DoubleDouble>>,
+    ) -> Ordering {
+        let ([a, b, c], [d, e, f]) = (vertex.triangle, other.triangle);
         if [[d, e, f], [e, f, d], [f, d, e]].contains(&vertex.triangle) {
             return Equal;
         }
-        let [a, b, c] = vertex.triangle;
-        let sign = sign::exact_sign(&Inside, self.p, &[self.q, a, b, c, d, e, f]);
+        let place = |triangle| self.precise_place(triangle);
+        let precise = || {
+            let excess = place([a, b, c]).excess(known.get_or_init(|| place([d, e, f])));
+            excess.sign().or_else(|| is_one_circle([a, b, c], &[d, e, f]).then_some(Equal))
+        };
+        let points = [self.q, a, b, c, d, e, f];
+        let sign = sign::exact_sign_by(&Inside, self.p, &points, precise);
         if self.side(other) == Greater { sign } else { sign.reverse() }
+    }
+
+    fn precise_place(&self, [a, b, c]: [Point; 3]) -> Place<DoubleDouble> {
+        let ([q, a, b, c], _) = DoubleDouble::differences(self.p, &[self.q, a, b, c]);
+        place(&q, [&a, &b, &c])
     }
 }
 
-/// Where the center of the triangle lies in the pencil of the origin and `q`: its power times w², its height times w, and w.
-fn place<T: Number>(q: &[T; 2], [a, b, c]: [&[T; 2]; 3]) -> (T, T, T) {
+/// Do all `others` lie on the circle through the corners of the triangle?
+fn is_one_circle([a, b, c]: [Point; 3], others: &[Point]) -> bool {
+    others
+        .iter()
+        .all(|&d| [a, b, c].contains(&d) || !in_circle(a, b, c, d) && !in_circle(c, b, a, d))
+}
+
+/// Where the center of a triangle lies in the pencil of the origin and a point.
+#[derive(Debug, Clone)]
+struct Place<T> {
+    /// Its power times w², w the common denominator of its coordinates.
+    power: T,
+    /// Its height times w².
+    height: T,
+}
+
+impl<T: Number> Place<T> {
+    /// Negative if this center is inside the circle through the other, times the latter's side.
+    fn excess(&self, other: &Self) -> T {
+        self.power.times(&other.height).minus(&other.power.times(&self.height))
+    }
+}
+
+/// The place of the center of the triangle in the pencil of the origin and `q`.
+fn place<T: Number>(q: &[T; 2], [a, b, c]: [&[T; 2]; 3]) -> Place<T> {
     let v = HomogeneousCenter::new(a, b, c);
     let from_q = [0, 1].map(|axis| v.at[axis].minus(&q[axis].times(&v.w)));
-    (sign::dot(&v.at, &from_q), sign::cross(q, &v.at), v.w)
+    let height = sign::cross(q, &v.at).times(&v.w);
+    Place { power: sign::dot(&v.at, &from_q), height }
+}
+
+/// The dot product of the sides of the angle at `r` opposite to the edge from the origin to `q`, and their cross product, added or
+/// taken off.
+struct Turned {
+    side: i64,
+}
+
+impl Form<2> for Turned {
+    fn bound(&self, bits: u32) -> u32 {
+        2 * bits + 3
+    }
+    fn value<T: Number>(&self, [q, r]: &[[T; 2]; 2]) -> T {
+        let dot = sign::dot(r, &sign::difference(r, q));
+        dot.plus(&T::integer(self.side).times(&sign::cross(q, r)))
+    }
 }
 
 struct Power;
@@ -231,7 +291,7 @@ impl Form<4> for Power {
         6 * bits + 14
     }
     fn value<T: Number>(&self, [q, a, b, c]: &[[T; 2]; 4]) -> T {
-        place(q, [a, b, c]).0
+        place(q, [a, b, c]).power
     }
 }
 
@@ -245,14 +305,14 @@ impl Form<4> for CenterThrough {
         7 * bits + 16
     }
     fn value<T: Number>(&self, [q, a, b, c]: &[[T; 2]; 4]) -> T {
-        let (power, height, w) = place(q, [a, b, c]);
-        let along = q[self.axis].times(&height.times(&w));
+        let Place { power, height } = place(q, [a, b, c]);
+        let along = q[self.axis].times(&height);
         let aside = q[1 - self.axis].times(&power);
         if self.axis == 0 { along.minus(&aside) } else { along.plus(&aside) }
     }
 }
 
-/// Twice the height times w: what both coordinates are divided by.
+/// Twice the height: what both coordinates are divided by.
 struct PlaceTwice;
 
 impl Form<4> for PlaceTwice {
@@ -260,8 +320,7 @@ impl Form<4> for PlaceTwice {
         6 * bits + 14
     }
     fn value<T: Number>(&self, [q, a, b, c]: &[[T; 2]; 4]) -> T {
-        let (_, height, w) = place(q, [a, b, c]);
-        T::integer(2).times(&height.times(&w))
+        T::integer(2).times(&place(q, [a, b, c]).height)
     }
 }
 
@@ -272,7 +331,7 @@ impl Form<4> for Side {
         4 * bits + 10
     }
     fn value<T: Number>(&self, [q, a, b, c]: &[[T; 2]; 4]) -> T {
-        place(q, [a, b, c]).1
+        sign::cross(q, &HomogeneousCenter::new(a, b, c).at)
     }
 }
 
@@ -284,9 +343,6 @@ impl Form<7> for Inside {
         12 * bits + 30
     }
     fn value<T: Number>(&self, [q, a, b, c, d, e, f]: &[[T; 2]; 7]) -> T {
-        let (power, height, w) = place(q, [a, b, c]);
-        let (other_power, other_height, other_w) = place(q, [d, e, f]);
-        let left = power.times(&other_height).times(&other_w);
-        left.minus(&other_power.times(&height).times(&w))
+        place(q, [a, b, c]).excess(&place(q, [d, e, f]))
     }
 }

@@ -6,15 +6,15 @@
 //! underflows, so coordinates that small take the integers of `sign` instead.
 
 use crate::exact::angle::{Angle, mixed_sign};
-use crate::exact::sign::{Form, Number, ROUNDING, exact_sign, small_differences};
+use crate::exact::filter::{ROUNDING, UNDERFLOW};
+use crate::exact::integer::small_differences;
+use crate::exact::sign::{Form, Number, exact_sign};
 use crate::point::{Point, dot, sub};
 use ethnum::I256;
 use std::cmp::Ordering::{self, Greater};
 
 const ORIENT_BOUND: f64 = (3.0 + 16.0 * ROUNDING) * ROUNDING;
 const IN_CIRCLE_BOUND: f64 = (10.0 + 96.0 * ROUNDING) * ROUNDING;
-/// More than all that underflow can take away from a determinant of coordinates up to 2^200.
-const UNDERFLOW: f64 = 1e-150;
 
 /// On which side of the line from `a` to `b` does `c` lie? `Greater` is left.
 #[inline]

@@ -8,6 +8,7 @@ use crate::delaunay::{Delaunay, Edge};
 use crate::edges::Edges;
 use crate::error::{Error, Result};
 use crate::exact::angle_bound::OppositeDot;
+use crate::exact::filter;
 use crate::exact::sign::{self, Form, Number, exact_sign};
 use crate::point::{Point, cross, dot, sub};
 use crate::progress::Progress;
@@ -70,19 +71,14 @@ impl Radius {
 
     /// The circumradius of `p`, `q`, `r`, compared with this radius.
     fn compare_circumradius(&self, p: Point, q: Point, r: Point) -> Ordering {
-        /// More than all that underflow can take away.
-        const UNDERFLOW: f64 = 1e-250;
         let (a, b, c) = (sub(q, p), sub(r, p), sub(r, q));
         let sides = dot(a, a) * dot(b, b) * dot(c, c);
         let twice = 2.0 * self.0;
         let (height, size) =
             (twice * cross(a, b), twice * (a[0].abs() + a[1].abs()) * (b[0].abs() + b[1].abs()));
         let excess = sides - height * height;
-        let bound = 64.0 * f64::EPSILON * (sides + size * size) + UNDERFLOW * (1.0 + twice * twice);
-        if excess.abs() > bound {
-            return excess.total_cmp(&0.0);
-        }
-        exact_sign(&Circumradius, [0.0; 2], &[p, q, r, [self.0, 0.0]])
+        filter::sign(excess, 16, sides + size * size, 1.0)
+            .unwrap_or_else(|| exact_sign(&Circumradius, [0.0; 2], &[p, q, r, [self.0, 0.0]]))
     }
 }
 

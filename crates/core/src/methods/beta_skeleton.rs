@@ -11,6 +11,7 @@ use crate::edges::{Edges, select};
 use crate::error::{Error, Result};
 use crate::exact::angle_bound::AngleBound;
 use crate::exact::constant::{Constant, fraction};
+use crate::exact::filter;
 use crate::exact::sign::{self, Form, Number};
 use crate::point::{Point, dot, sub};
 use crate::progress::{Progress, Stage};
@@ -126,18 +127,12 @@ impl Lune {
     /// Is `r` in the disk that touches `p` and is centered β / 2 of the way to `q`?
     #[inline]
     fn disk_holds(&self, p: Point, q: Point, r: Point) -> bool {
-        /// More than all that underflow can take away.
-        const UNDERFLOW: f64 = 1e-150;
         let (u, v) = (sub(r, p), sub(q, p));
         let size = (u[0].abs() + u[1].abs()) * (v[0].abs() + v[1].abs());
         let square = dot(u, u);
         let excess = self.beta * dot(u, v) - square;
-        let bound =
-            16.0 * f64::EPSILON * (square + self.beta * size) + UNDERFLOW * (1.0 + self.beta);
-        if excess.abs() > bound {
-            return excess > 0.0;
-        }
-        sign::sign(&self.disk, p, &[q, r]) == Greater
+        let sign = filter::sign(excess, 6, square + size, self.beta.max(1.0));
+        sign.unwrap_or_else(|| sign::sign(&self.disk, p, &[q, r])) == Greater
     }
 }
 

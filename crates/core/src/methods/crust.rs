@@ -10,6 +10,7 @@ use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, select};
 use crate::error::Result;
 use crate::exact::angle::Angle;
+use crate::exact::filter::{self, UNDERFLOW};
 use crate::exact::pencil::{Circle, Disk, Pencil, Vertex};
 use crate::exact::sign::{self, Form, Number};
 use crate::point::{Point, cross, dot, sub};
@@ -121,26 +122,23 @@ fn half_stays_in_cell(delaunay: &Delaunay, s: u32, end: u32) -> bool {
 /// doubt the backward form serves, for it asks for no less.
 #[inline]
 fn has_room(s: Point, end: Point, neighbor: Point) -> bool {
-    /// More than all relative roundings below.
-    const DOUBT: f64 = 1e-14;
     let (d, g) = (sub(end, s), sub(neighbor, s));
     let (length, far) = (dot(d, d), dot(g, g));
-    if far > 4.001 * length {
+    if far > 4.001 * length + UNDERFLOW {
         // The disk is nowhere further from s than |d|, and the bisector is at |g| / 2.
         return true;
     }
     let (along, aside) = (dot(d, g), cross(d, g));
+    // |d| |g| is at most the sum of the latter two, so this is more than all terms of each sum below.
     let size = far + along.abs() + aside.abs();
-    if along > DOUBT * size {
-        let room = far - along - aside.abs();
-        return room > DOUBT * size
-            || room > -DOUBT * size && sign::exact_sign(&RoomAhead, s, &[end, neighbor]) != Less;
+    if filter::sign(along, 4, size, 1.0) == Some(Greater) {
+        let sign = filter::sign(far - along - aside.abs(), 6, size, 1.0);
+        let exact = || sign::exact_sign(&RoomAhead, s, &[end, neighbor]);
+        return sign.unwrap_or_else(exact) != Less;
     }
     let room = far - along;
-    let excess = room * room - length * far;
-    excess > DOUBT * size * size
-        || excess > -DOUBT * size * size
-            && sign::exact_sign(&RoomBehind, s, &[end, neighbor]) != Less
+    let sign = filter::sign(room * room - length * far, 12, 2.0 * size * size, 1.0);
+    sign.unwrap_or_else(|| sign::exact_sign(&RoomBehind, s, &[end, neighbor])) != Less
 }
 
 /// (|g|² − d·g)² − |d×g|², whose first root is positive.
@@ -303,7 +301,7 @@ impl<'a> Part<'a> {
             // Where the direction is in doubt the whole disk serves, for it reaches no less.
             None => self.disk.radius * far.sqrt(),
         };
-        let reach = dot(self.center, g) + width + (self.doubt + 1e-14 * span) * span;
+        let reach = dot(self.center, g) + width + (self.doubt + 1e-14 * span) * span + UNDERFLOW;
         // An unknown (not a number) counts as reaching.
         reach.is_nan() || reach > far / 2.0
     }

@@ -1,6 +1,7 @@
 //! Lengths of edges, compared exactly.
 
 use crate::delaunay::Delaunay;
+use crate::exact::filter;
 use crate::exact::sign::{self, Form, Number, exact_sign};
 use crate::point::{Point, dot, lexicographic, sub};
 use std::cmp::Ordering;
@@ -10,10 +11,7 @@ use std::cmp::Ordering;
 pub(super) fn compare_distances(p: Point, a: Point, b: Point) -> Ordering {
     let (u, v) = (sub(a, p), sub(b, p));
     let (u, v) = (dot(u, u), dot(v, v));
-    if (u - v).abs() > 8.0 * f64::EPSILON * (u + v) + f64::MIN_POSITIVE {
-        return u.total_cmp(&v);
-    }
-    sign::sign(&Nearer, p, &[a, b])
+    filter::sign(u - v, 5, u + v, 1.0).unwrap_or_else(|| sign::sign(&Nearer, p, &[a, b]))
 }
 
 /// The difference of the squared distances from the origin: negative if the first is nearer.
@@ -60,11 +58,11 @@ impl Ranked {
 
     fn compare_lengths(&self, other: &Self, [p, q]: [Point; 2], [r, s]: [Point; 2]) -> Ordering {
         let difference = self.square - other.square;
-        let bound = 8.0 * f64::EPSILON * (self.square + other.square) + f64::MIN_POSITIVE;
-        if difference.abs() > bound || (self.is_exact && other.is_exact) {
+        if self.is_exact && other.is_exact {
             return difference.total_cmp(&0.0);
         }
-        exact_sign(&Longer, p, &[q, r, s])
+        filter::sign(difference, 5, self.square + other.square, 1.0)
+            .unwrap_or_else(|| exact_sign(&Longer, p, &[q, r, s]))
     }
 }
 

@@ -57,11 +57,11 @@ impl Disk {
     /// point no farther than min(|xp|, |xq|) ≤ √(2ρ(ρ + |t|)). A point farther than ρ + √(2ρ(ρ + |t|)) from the center is nearest to
     /// none of them, so it neither makes nor removes a Voronoi vertex there.
     pub(super) fn influence(pencil: &Pencil, circle: Circle) -> Self {
-        let (center, radius, error) = pencil.center(circle);
+        let disk = pencil.disk(circle);
         let middle = sub(pencil.q, pencil.p).map(|x| x / 2.0);
-        let height = length(sub(center, middle));
-        let nearest = (2.0 * radius * (radius + height)).sqrt();
-        Self::new(pencil.p, center, radius + nearest, 4.0 * error)
+        let height = length(sub(disk.center, middle));
+        let nearest = (2.0 * disk.radius * (disk.radius + height)).sqrt();
+        Self::new(pencil.p, disk.center, disk.radius + nearest, 4.0 * disk.error)
     }
 
     /// The disk that must be empty for `vertex` to be a Voronoi vertex.
