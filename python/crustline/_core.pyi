@@ -21,6 +21,7 @@ __all__ = [
     "stars",
     "trace",
     "trace_tile",
+    "z_order",
 ]
 
 __version__: str
@@ -82,6 +83,7 @@ def shells(
     threads: int | None = None,
     progress: _Progress | None = None,
 ) -> _Integers: ...
+def z_order(points: _Floats) -> tuple[_Integers, _Integers]: ...
 def decide(
     delaunay: Delaunay,
     rule: _Rule,

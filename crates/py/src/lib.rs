@@ -41,7 +41,7 @@ mod _core {
     #[pymodule_export]
     use crate::ridge::ridge;
     #[pymodule_export]
-    use crate::tiles::{candidates, decide, join_chains, stars, trace_tile};
+    use crate::tiles::{candidates, decide, join_chains, stars, trace_tile, z_order};
     #[pymodule_export]
     use crate::trace::trace;
     use pyo3::prelude::*;

@@ -19,6 +19,19 @@ type Table<'py, T> = Bound<'py, PyArray2<T>>;
 /// The name of a method and its parameters, as `select` takes them.
 type Rule = (String, Vec<f64>);
 
+/// The rows of distinct points along the Z-order curve, and the duplicates (d, 2): row, and the first row with the same coordinates.
+#[pyfunction]
+pub fn z_order<'py>(
+    py: Python<'py>,
+    points: PyReadonlyArray2<'py, f64>,
+) -> PyResult<(Integers<'py>, Table<'py, i64>)> {
+    let points = self::points(py, &points)?;
+    let call = Call { size: points.len(), threads: Some(1), callback: None };
+    let order = call.run(py, |progress| tiles::order(points, progress))?;
+    let rows = integers(py, order.rows.into_iter().map(i64::from));
+    Ok((rows, integer_rows(py, &order.duplicates)?))
+}
+
 /// Decide edges for good: `(edges, open edges, open vertices, their reach, pieces asked for, parts of them)`.
 ///
 /// `own` and `fresh` are flags of rows, `pairs` more edges to decide; `pieces` (k, 4), left, bottom, right, top, are where unseen points may

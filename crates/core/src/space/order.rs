@@ -34,6 +34,9 @@ pub struct Order {
 }
 
 /// Sort `points` along the Z-order curve and set repeated ones aside.
+///
+/// # Errors
+/// Coordinates too far apart in size, or a cancelled `progress`.
 pub fn order(points: &[Point], progress: &Progress) -> Result<Order> {
     progress.enter(Stage::Sort, points.len())?;
     let bounds = Bounds::of(points);

@@ -25,6 +25,7 @@ pub use rule::{BetaSkeleton, CrossingAngle, Crust, OneStepCrust, Rule, Work, wit
 pub use unseen::Unseen;
 
 pub use crate::space::bounds::Bounds;
+pub use crate::space::order::{Order, order};
 
 #[cfg(test)]
 mod tests;

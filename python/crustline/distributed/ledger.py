@@ -1,0 +1,100 @@
+"""What a run has done: a line for each step, appended as it ends, so that a run can go on later."""
+
+from __future__ import annotations
+
+import json
+import os
+import resource
+import time
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+from crustline.distributed.store import Written
+
+Step = Callable[..., tuple[list[Written], dict[str, Any]]]
+"""Reads files of the run's folder and writes one or a few; returns them, and some counts."""
+
+
+@dataclass(frozen=True)
+class Done:
+    """A step that was done.
+
+    Attributes
+    ----------
+    stage, number : str, int
+        Which step.
+    files : list of Written
+        What it wrote.
+    counts : dict
+        What it counted, as JSON can hold it.
+    cost : dict
+        Seconds (`wall`, `cpu`), bytes of memory of its process at most (`peak`), and where it ran.
+    """
+
+    stage: str
+    number: int
+    files: list[Written]
+    counts: dict[str, Any]
+    cost: dict[str, Any] = field(default_factory=dict)
+
+
+def perform(
+    folder: str, stage: str, number: int, step: Step, arguments: dict[str, Any], before: Done | None
+) -> Done:
+    """Do a step, unless what it wrote before is there, undamaged."""
+    if before is not None and is_intact(before, folder):
+        return before
+    wall, cpu = time.perf_counter(), time.process_time()
+    files, counts = step(Path(folder), **arguments)
+    cost = {
+        "wall": time.perf_counter() - wall,
+        "cpu": time.process_time() - cpu,
+        "peak": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024,
+        "process": f"{os.uname().nodename}:{os.getpid()}",
+    }
+    return Done(stage, number, files, counts, cost)
+
+
+def is_intact(done: Done, folder: str) -> bool:
+    """Return whether the files of a step are there as they were written."""
+    return all(file.is_in(Path(folder)) for file in done.files)
+
+
+class Ledger:
+    """The steps that have been done, in a file that only grows."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._done: dict[tuple[str, int], Done] = {}
+        if path.exists():
+            for line in path.read_text(encoding="utf-8").splitlines():
+                self._take(line)
+
+    def _take(self, line: str) -> None:
+        try:
+            entry = json.loads(line)
+        except ValueError:
+            # The line at which the run was killed.
+            return
+        entry["files"] = [Written(**each) for each in entry["files"]]
+        done = Done(**entry)
+        self._done[done.stage, done.number] = done
+
+    def before(self, stage: str, number: int) -> Done | None:
+        """Return what a step did before, if it was done."""
+        return self._done.get((stage, number))
+
+    def add(self, done: Done) -> None:
+        """Note that a step was done."""
+        if self.before(done.stage, done.number) is done:
+            return
+        self._done[done.stage, done.number] = done
+        self._path.parent.mkdir(parents=True, exist_ok=True)
+        with self._path.open("a", encoding="utf-8") as file:
+            file.write(json.dumps(asdict(done)) + "\n")
+
+    def all(self) -> list[Done]:
+        """Return all steps that were done."""
+        return list(self._done.values())

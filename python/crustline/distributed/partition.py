@@ -1,0 +1,214 @@
+"""From any input to tiles: each step reads files and writes one.
+
+Read copies coordinates, scatter sorts the rows of each piece by tile, gather collects a tile, sets
+its repeated points aside and writes it in groups along the Z-order curve. So a worker that dies
+costs its step and nothing else, where a shuffle between workers would start again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from crustline import _core
+from crustline.arrays import IntArray
+from crustline.distributed.cuts import Cuts, cut
+from crustline.distributed.sight import around
+from crustline.distributed.store import (
+    Arrays,
+    Records,
+    together,
+    write,
+    write_pairs,
+    write_records,
+)
+
+#: Points of the sample for each tile that there will be.
+SAMPLE = 500
+
+_POINTS: Arrays = {"xy": np.empty((0, 2)), "row": np.empty(0, np.int64)}
+
+
+def read(
+    folder: Path, number: int, unit: Any, piece: int, tile_points: int, frame: Any = None
+) -> Any:
+    """Copy the coordinates of a unit of the input, in pieces, each with a sample of it."""
+    if frame is not None:
+        unit = replace(unit, frame=frame)
+    random = np.random.default_rng(number)
+    step = max(1, tile_points // SAMPLE)
+    count = 0
+
+    def records() -> Iterator[Arrays]:
+        nonlocal count
+        for xy in unit.pieces(piece):
+            count += len(xy)
+            # Adding 0.0 makes one of the two zeros.
+            xy = xy + 0.0
+            yield {"xy": xy, "sample": xy[_sample(len(xy), step, random)]}
+        yield {"xy": np.empty((0, 2)), "sample": np.empty((0, 2))}
+
+    written = write_records(folder, f"work/read/{number:06}.arrow", records())
+    return [written], {"count": count}
+
+
+def _sample(count: int, step: int, random: np.random.Generator) -> IntArray:
+    """Return one row of each `step`, at a random place among them."""
+    starts = np.arange(0, count, step)
+    rows: IntArray = np.minimum(starts + random.integers(0, step, len(starts)), count - 1)
+    return rows
+
+
+def plan(folder: Path, units: list[str], tile_points: int) -> Any:
+    """Cut the plane by the samples of all units."""
+    samples = (record["sample"] for path in units for record in Records(folder / path, ["sample"]))
+    sample = np.concatenate([np.empty((0, 2)), *samples])
+    step = max(1, tile_points // SAMPLE)
+    cuts = cut(sample, np.full(len(sample), float(step)), tile_points)
+    return [write_records(folder, "work/cuts-0.arrow", [cuts.arrays()])], {"tiles": cuts.leaves}
+
+
+def cuts_in(folder: Path, path: str) -> Cuts:
+    """Return the cuts in a file."""
+    return Cuts(**Records(folder / path)[0])
+
+
+def scatter(folder: Path, number: int, unit: str, cuts: str, first_row: int) -> Any:
+    """Sort the rows of each piece of a unit by tile: a record for each piece and tile."""
+    tree = cuts_in(folder, cuts)
+    counts = np.zeros(tree.leaves, np.int64)
+
+    def records() -> Iterator[Arrays]:
+        row = first_row
+        for record in Records(folder / unit, ["xy"]):
+            xy = record["xy"]
+            leaf = tree.leaf_of(xy)
+            sizes = np.bincount(leaf, minlength=tree.leaves)
+            order = np.argsort(leaf.astype(np.uint32), kind="stable")
+            ends = np.cumsum(sizes)
+            for start, end in zip(ends - sizes, ends, strict=True):
+                rows = order[start:end]
+                yield {"xy": xy[rows], "row": row + rows}
+            counts[:] += sizes
+            row += len(xy)
+
+    generation = Path(cuts).stem
+    path = f"work/scatter-{generation}/{number:06}.arrow"
+    written = write_records(folder, path, records())
+    count = write_records(folder, f"{path}.counts", [{"counts": counts}])
+    return [written, count], {}
+
+
+def balance(folder: Path, scattered: list[str], cuts: str, tile_points: int) -> Any:
+    """Count the points of all tiles, and cut those again that hold far more than wanted."""
+    tree = cuts_in(folder, cuts)
+    counts = np.zeros(tree.leaves, np.int64)
+    for path in scattered:
+        counts += Records(folder / f"{path}.counts")[0]["counts"]
+    full = np.flatnonzero(counts > 1.5 * tile_points)
+    finer = _cut_again(folder, scattered, tree, full, counts, tile_points)
+    generation = int(Path(cuts).stem.split("-")[1]) + 1
+    path = f"work/cuts-{generation}.arrow"
+    written = write_records(folder, path, [finer.arrays()])
+    return [written], {"tiles": finer.leaves, "was": tree.leaves, "counts": counts.tolist()}
+
+
+def _cut_again(
+    folder: Path,
+    scattered: list[str],
+    tree: Cuts,
+    full: IntArray,
+    counts: IntArray,
+    tile_points: int,
+) -> Cuts:
+    for leaf in full[::-1].tolist():
+        step = max(1, tile_points // SAMPLE)
+        parts = [
+            fragment["xy"][::step] for fragment in fragments(folder, scattered, leaf, tree.leaves)
+        ]
+        sample = np.concatenate(parts)
+        weights = np.full(len(sample), counts[leaf] / len(sample))
+        tree = tree.grafted(leaf, cut(sample, weights, tile_points))
+    return tree
+
+
+def fragments(folder: Path, scattered: list[str], tile: int, tiles: int) -> Iterator[Arrays]:
+    """Return the points of a tile, piece by piece, in the order of their rows."""
+    for path in scattered:
+        records = Records(folder / path)
+        for k in range(tile, len(records), tiles):
+            yield records[k]
+
+
+def gather(folder: Path, tile: int, scattered: list[str], tiles: int, tile_points: int) -> Any:
+    """Collect a tile: its distinct points in groups along the Z-order curve, and its duplicates."""
+    found = _Distinct()
+
+    def duplicates() -> Iterator[IntArray]:
+        waiting: list[Arrays] = []
+        for fragment in fragments(folder, scattered, tile, tiles):
+            waiting.append(fragment)
+            if sum(len(each["row"]) for each in waiting) > tile_points:
+                yield found.add(waiting)
+                waiting = []
+        yield found.add(waiting)
+
+    path = f"duplicates/part-{tile:06}.parquet"
+    repeated = write(folder, path, lambda part: write_pairs(part, ("row", "first"), duplicates()))
+    size = max(32, tile_points // 256)
+    starts = range(0, max(1, len(found.order)), size)
+    groups = [found.along_curve(start, start + size) for start in starts]
+    about = {
+        "bounds": np.array([around(group["xy"]) for group in groups]),
+        "counts": np.array([len(group["row"]) for group in groups]),
+    }
+    written = write_records(folder, f"work/tiles/{tile:06}.arrow", groups)
+    bounds = write_records(folder, f"work/tiles/{tile:06}.bounds", [about])
+    count = {"points": len(found.order), "duplicates": found.repeated}
+    return [repeated, written, bounds], count
+
+
+class _Distinct:
+    """Distinct points in the order of their rows, to which more are added."""
+
+    def __init__(self) -> None:
+        self.points = _POINTS
+        self.order = np.empty(0, np.int64)
+        self.repeated = 0
+
+    def add(self, records: list[Arrays]) -> IntArray:
+        """Add points of larger rows; return those that were there, each with its first row."""
+        points = together([self.points, *records], _POINTS)
+        first, duplicates = _core.z_order(points["xy"])
+        kept = np.sort(first)
+        self.points = {name: array[kept] for name, array in points.items()}
+        self.order = np.searchsorted(kept, first)
+        self.repeated += len(duplicates)
+        return points["row"][duplicates]
+
+    def along_curve(self, start: int, end: int) -> Arrays:
+        """Return a run of the points along the Z-order curve, in the order of their rows."""
+        run = np.sort(self.order[start:end])
+        return {name: array[run] for name, array in self.points.items()}
+
+
+def atlas(folder: Path, tiles: int) -> Any:
+    """Put what the groups of all tiles span into one file."""
+    abouts = [Records(folder / f"work/tiles/{tile:06}.bounds")[0] for tile in range(tiles)]
+    bounds = np.concatenate([about["bounds"] for about in abouts])
+    first = np.cumsum([0, *(len(about["counts"]) for about in abouts)])
+    whole = [
+        np.concatenate([about["bounds"][:, :2].min(axis=0), about["bounds"][:, 2:].max(axis=0)])
+        for about in abouts
+    ]
+    record = {
+        "first": first,
+        "bounds": bounds,
+        "counts": np.concatenate([about["counts"] for about in abouts]),
+        "tiles": np.array(whole),
+    }
+    return [write_records(folder, "work/atlas.arrow", [record])], {}
