@@ -18,7 +18,7 @@ def read_folder(folder: Path) -> list[Case]:
 
 
 def _read(folder: Path, name: str, group: str) -> Case:
-    options = {"delimiter": ",", "skiprows": 1, "usecols": (0, 1)}
-    points = np.loadtxt(folder / f"{name}.csv", **options)
-    edges = np.loadtxt(folder / f"{name}.edges.csv", dtype=np.int64, **options).reshape(-1, 2)
+    points = np.loadtxt(folder / f"{name}.csv", delimiter=",", skiprows=1, usecols=(0, 1))
+    rows = np.loadtxt(folder / f"{name}.edges.csv", delimiter=",", skiprows=1, usecols=(0, 1))
+    edges = rows.astype(np.int64).reshape(-1, 2)
     return Case(name, group, points, np.unique(np.sort(edges, axis=1), axis=0))

@@ -107,7 +107,7 @@ def feature_size(fine: Array, closed: bool) -> Array:
         ahead[0], ahead[-1] = fine[1] - fine[0], fine[-1] - fine[-2]
     left = np.stack([-ahead[:, 1], ahead[:, 0]], axis=1) / np.hypot(*ahead.T)[:, None]
     centers = [_centers(fine, normal) for normal in (left, -left)]
-    return KDTree(np.concatenate(centers)).query(fine)[0]
+    return np.asarray(KDTree(np.concatenate(centers)).query(fine)[0])
 
 
 def _centers(fine: Array, normal: Array) -> Array:

@@ -17,6 +17,7 @@ from crustline.errors import CrustlineError, FormatError, InputError, MissingExt
 from crustline.formats import read, read_curves, write
 from crustline.interpolant import Interpolant, local_feature_size
 from crustline.medial_axis import MedialAxis, medial_axis
+from crustline.merge import Merged, merge
 from crustline.methods import (
     METHODS,
     a_shape,
@@ -68,6 +69,7 @@ __all__ = [
     "InputError",
     "Interpolant",
     "MedialAxis",
+    "Merged",
     "MissingExtraError",
     "Points",
     "Polygon",
@@ -96,6 +98,7 @@ __all__ = [
     "is_r_sample",
     "local_feature_size",
     "medial_axis",
+    "merge",
     "minimum_spanning_tree",
     "nn_crust",
     "one_step_crust",

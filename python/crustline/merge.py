@@ -1,0 +1,129 @@
+"""Points that differ by rounding, merged: one point stands for each group of near ones."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crustline.arrays import IntArray, read_only
+from crustline.delaunay import Delaunay, as_delaunay
+from crustline.errors import InputError
+from crustline.points import Points
+from crustline.scalars import as_length
+
+__all__ = ["Merged", "merge"]
+
+#: A group wider than this many tolerances is a chain of points, not one point that was rounded.
+WIDEST = 3.0
+
+
+@dataclass(frozen=True, eq=False)
+class Merged:
+    """Points of which near ones were merged, and the way back to the rows.
+
+    Attributes
+    ----------
+    points : Points
+        The points that are left, in the order of their rows, with what they carry.
+    rows : ndarray of int64, shape (k,)
+        The row of each of them in the points that were given.
+    merged : ndarray of int64, shape (d, 2)
+        A row that was merged, and the row that stands for it; sorted.
+    """
+
+    points: Points
+    rows: IntArray
+    merged: IntArray
+
+    def __repr__(self) -> str:
+        return f"<Merged: {len(self.rows):,} points, {len(self.merged):,} rows merged>"
+
+
+def merge(points: ArrayLike | Delaunay, tolerance: float) -> Merged:
+    """Return points of which those within a tolerance of each other are merged into one.
+
+    Parameters
+    ----------
+    points : array_like of float, shape (n, 2), Points or Delaunay
+        Coordinates, in any one unit. Finite.
+    tolerance : float
+        The greatest distance, in the unit of the points, at which two points are one. Not negative.
+
+    Returns
+    -------
+    merged : Merged
+        The points that are left and their rows; the rows that were merged are in `merged.merged`.
+
+    Raises
+    ------
+    InputError
+        If the points or the tolerance do not fit, or a group is wider than three tolerances: then
+        the message names two of its rows.
+
+    Notes
+    -----
+    Groups are the connected components of pairs within the tolerance, whatever the order of the
+    rows; the lexicographically smallest point stands for each, at its first row. A minimum spanning
+    tree joins the points of a group by edges within the tolerance, and it is part of the Delaunay
+    triangulation, so only Delaunay edges are looked at. O(n log n) time.
+
+    Examples
+    --------
+    >>> near = merge([(0, 0), (1, 0), (1 + 1e-9, 0), (0, 1)], 1e-6)
+    >>> near.rows.tolist(), near.merged.tolist()
+    ([0, 1, 3], [[2, 1]])
+    """
+    limit = as_length("tolerance", tolerance)
+    delaunay = as_delaunay(points)
+    xy = delaunay.points.xy
+    steps = xy[delaunay.edges[:, 0]] - xy[delaunay.edges[:, 1]]
+    near = delaunay.edges[np.hypot(steps[:, 0], steps[:, 1]) <= limit]
+    groups = _components(len(xy), np.concatenate([near, delaunay.duplicates]))
+    stands = _representatives(xy, groups)
+    _refuse_wide(xy, stands, limit)
+    rows = np.flatnonzero(stands == np.arange(len(xy)))
+    gone = np.flatnonzero(stands != np.arange(len(xy)))
+    merged = np.stack([gone, stands[gone]], axis=1)
+    return Merged(delaunay.points.select(rows), read_only(rows), read_only(merged))
+
+
+def _components(n: int, edges: IntArray) -> IntArray:
+    """Return for each of n rows the smallest row of its component."""
+    label = np.arange(n)
+    while True:
+        least = label[edges].min(axis=1)
+        before = label.copy()
+        for end in (0, 1):
+            np.minimum.at(label, label[edges[:, end]], least)
+            np.minimum.at(label, edges[:, end], least)
+        label = label[label]
+        if np.array_equal(label, before):
+            return label
+
+
+def _representatives(xy: np.ndarray, groups: IntArray) -> IntArray:
+    """Return for each row that of the lexicographically smallest point of its group."""
+    order = np.lexsort((np.arange(len(xy)), xy[:, 1], xy[:, 0], groups))
+    starts = np.flatnonzero(np.diff(groups[order], prepend=-1))
+    first = np.empty(len(xy), np.int64)
+    first[groups[order[starts]]] = order[starts]
+    return first[groups]
+
+
+def _refuse_wide(xy: np.ndarray, stands: IntArray, limit: float) -> None:
+    order = np.argsort(stands, kind="stable")
+    starts = np.flatnonzero(np.diff(stands[order], prepend=-1))
+    for group in np.split(order, starts[1:]):
+        # Two points within the tolerance are never too wide.
+        if len(group) < 3 or np.hypot(*np.ptp(xy[group], axis=0)) <= WIDEST * limit:
+            continue
+        for row in group.tolist():
+            far = np.hypot(*(xy[group] - xy[row]).T)
+            if far.max() > WIDEST * limit:
+                other = int(group[np.argmax(far)])
+                raise InputError(
+                    f"rows {row} and {other} are {far.max():g} apart, in one chain of points "
+                    f"within the tolerance {limit:g}: it is too large, pass less"
+                )
