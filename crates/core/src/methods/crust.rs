@@ -43,8 +43,17 @@ pub(crate) enum Verdict {
 /// Look for a disk, the smallest first; each Voronoi vertex found inside rules out a part of the pencil.
 #[inline]
 pub(crate) fn find_disk(delaunay: &Delaunay, edge: Edge, visit: &mut Visit) -> Verdict {
-    let apexes = [edge.left, edge.right].into_iter().flatten();
-    if apexes.into_iter().any(|apex| is_above_45(delaunay, edge, apex)) {
+    let triangles = [(edge.p, edge.q, edge.left), (edge.q, edge.p, edge.right)];
+    let own = triangles.into_iter().find_map(|(p, q, apex)| {
+        let corners = [p, q, apex?].map(|vertex| delaunay.point(vertex));
+        is_above_45(corners).then_some(corners)
+    });
+    if let Some(corners) = own {
+        let pencil = Pencil::new(delaunay.point(edge.p), delaunay.point(edge.q));
+        let circle = Circle::Through(pencil.vertex(corners));
+        if is_in_cells(delaunay, edge, &pencil, &pencil.disk(circle)) {
+            return Verdict::In(circle);
+        }
         return search(delaunay, edge, None, visit);
     }
     if smallest_disk_is_in_cells(delaunay, edge) {
@@ -58,12 +67,20 @@ pub(crate) fn find_disk(delaunay: &Delaunay, edge: Edge, visit: &mut Visit) -> V
     search(delaunay, edge, found, visit)
 }
 
-/// Is the angle opposite to the edge about 45° or more? Then the center of that triangle is inside the smallest disk.
+/// Is the angle at the third corner about 45° or more? Then the triangle's center is inside the smallest disk of the other two.
 #[inline]
-fn is_above_45(delaunay: &Delaunay, edge: Edge, apex: u32) -> bool {
-    let [p, q, apex] = [edge.p, edge.q, apex].map(|vertex| delaunay.point(vertex));
+fn is_above_45([p, q, apex]: [Point; 3]) -> bool {
     let angle = Angle::at(apex, p, q);
-    angle.dot < angle.cross.abs()
+    angle.dot < angle.cross
+}
+
+/// Does `disk` certainly lie in the Voronoi cells of p and q? Then no Voronoi vertex is inside.
+fn is_in_cells(delaunay: &Delaunay, edge: Edge, pencil: &Pencil, disk: &Disk) -> bool {
+    [[edge.p, edge.q], [edge.q, edge.p]].into_iter().all(|[s, end]| {
+        let part = Part::new(disk, pencil, delaunay.point(s), Some(delaunay.point(end)));
+        let mut others = delaunay.star(s).neighbors.iter().filter(|&&neighbor| neighbor != end);
+        others.all(|&neighbor| !part.may_reach(delaunay.point(neighbor)))
+    })
 }
 
 /// The search in full, from the Voronoi vertex `found` in the smallest disk, if that was tried.
@@ -199,7 +216,7 @@ impl Visit {
             let cell = self.cells[next];
             let other = [edge.q, edge.p].get(next).map(|&end| delaunay.point(end));
             let part = Part::new(&disk, pencil, delaunay.point(cell), other);
-            let found = self.search_cell(delaunay, cell, pencil, &part);
+            let found = self.search_cell(delaunay, next, pencil, &part);
             if found.is_some() {
                 return found;
             }
@@ -208,32 +225,43 @@ impl Visit {
         None
     }
 
+    /// Look at the corners of cell number `number` of the visit; add the cells behind the sides that the disk crosses.
+    ///
+    /// A corner is on two bisectors, so both must meet the disk; and it is of three cells: those of earlier cells are known.
     fn search_cell(
         &mut self,
         delaunay: &Delaunay,
-        cell: u32,
+        number: usize,
         pencil: &Pencil,
         part: &Part<'_>,
     ) -> Option<Vertex> {
-        let star = delaunay.star(cell);
-        let &last = star.neighbors.last()?;
-        let mut before = (last, !star.on_hull && part.may_reach(delaunay.point(last)));
-        for &neighbor in star.neighbors {
-            let point = delaunay.point(neighbor);
-            let is_near = part.may_reach(point);
-            if is_near {
-                self.add(neighbor);
-                // A Voronoi vertex is on two bisectors of its cell, so both must meet the disk.
-                if before.1 {
-                    let vertex = pencil.vertex([part.site, delaunay.point(before.0), point]);
+        let star = delaunay.star(self.cells[number]);
+        let count = star.neighbors.len();
+        let side = |k: usize| Side::new(part, star.neighbors[k], delaunay.point(star.neighbors[k]));
+        let last = side(count.checked_sub(1)?);
+        let (mut before, mut this) = (last, if count > 1 { side(0) } else { last });
+        for k in 0..count {
+            let after = if k + 1 < count { side(k + 1) } else { side(0) };
+            if this.is_near {
+                let is_corner = before.is_near && (k > 0 || !star.on_hull);
+                if is_corner && !self.was_at(number, before.neighbor, this.neighbor) {
+                    let vertex = pencil.vertex([part.site, before.point, this.point]);
                     if pencil.holds(part.disk, &vertex) {
                         return Some(vertex);
                     }
                 }
+                if part.may_cross(&this, [&before, &after]) {
+                    self.add(this.neighbor);
+                }
             }
-            before = (neighbor, is_near);
+            (before, this) = (this, after);
         }
         None
+    }
+
+    /// Was one of two cells visited before cell number `number`?
+    fn was_at(&self, number: usize, one: u32, other: u32) -> bool {
+        number <= FEW && self.cells[..number].iter().any(|&cell| cell == one || cell == other)
     }
 
     fn add(&mut self, cell: u32) {
@@ -264,6 +292,22 @@ struct Part<'a> {
     apex: Option<Point>,
 }
 
+/// The bisector of a cell's site and a neighbor.
+#[derive(Clone, Copy)]
+struct Side {
+    neighbor: u32,
+    point: Point,
+    /// Can a point of the part be nearer to the neighbor than to the site?
+    is_near: bool,
+}
+
+impl Side {
+    #[inline]
+    fn new(part: &Part<'_>, neighbor: u32, point: Point) -> Self {
+        Self { neighbor, point, is_near: part.may_reach(point) }
+    }
+}
+
 /// The half of a disk that is nearer to one end of the edge.
 struct Half {
     /// The vector to the other end.
@@ -283,6 +327,26 @@ impl<'a> Part<'a> {
         });
         let apex = pencil.own_apex(disk);
         Self { disk, site, center, doubt: 1e-14 * size + 2.0 * disk.error, half, apex }
+    }
+
+    /// Can the disk cross the cell's `side`, given that it holds none of its ends? False only if it certainly does not.
+    ///
+    /// It meets the line of the side around the foot of its center, so if the foot is beyond an end, on the other side of the
+    /// bisector `beside` it, all between that end and the disk's part of the line is outside of the cell.
+    #[inline]
+    fn may_cross(&self, side: &Side, beside: [&Side; 2]) -> bool {
+        let g = sub(side.point, self.site);
+        let far = dot(g, g);
+        let step = (far / 2.0 - dot(self.center, g)) / far;
+        let foot = [self.center[0] + step * g[0], self.center[1] + step * g[1]];
+        let doubt = 4.0 * self.doubt + 1e-13 * (g[0].abs() + g[1].abs());
+        beside.iter().all(|other| {
+            let h = sub(other.point, self.site);
+            let span = h[0].abs() + h[1].abs();
+            let beyond = dot(foot, h) - dot(h, h) / 2.0 - (doubt + 1e-13 * span) * span;
+            // An unknown (not a number) counts as crossing.
+            beyond.is_nan() || beyond <= 0.0
+        })
     }
 
     /// Can a point of this part be nearer to `neighbor` than to the site? False only if certainly none is.
