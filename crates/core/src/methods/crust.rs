@@ -192,6 +192,8 @@ pub struct Visit {
     many: HashSet<u32>,
 }
 
+/// More than all that underflow can take away from a product of distances.
+const UNDERFLOW: f64 = 1e-290;
 /// Cells up to which a list is searched faster than a hash table.
 const FEW: usize = 24;
 
@@ -337,6 +339,9 @@ impl<'a> Part<'a> {
     fn may_cross(&self, side: &Side, beside: [&Side; 2]) -> bool {
         let g = sub(side.point, self.site);
         let far = dot(g, g);
+        if far < UNDERFLOW {
+            return true;
+        }
         let step = (far / 2.0 - dot(self.center, g)) / far;
         let foot = [self.center[0] + step * g[0], self.center[1] + step * g[1]];
         let doubt = 4.0 * self.doubt + 1e-13 * (g[0].abs() + g[1].abs());
@@ -345,7 +350,7 @@ impl<'a> Part<'a> {
             let span = h[0].abs() + h[1].abs();
             let beyond = dot(foot, h) - dot(h, h) / 2.0 - (doubt + 1e-13 * span) * span;
             // An unknown (not a number) counts as crossing.
-            beyond.is_nan() || beyond <= 0.0
+            beyond.is_nan() || beyond <= UNDERFLOW
         })
     }
 
@@ -367,7 +372,7 @@ impl<'a> Part<'a> {
         };
         let reach = dot(self.center, g) + width + (self.doubt + 1e-14 * span) * span + UNDERFLOW;
         // An unknown (not a number) counts as reaching.
-        reach.is_nan() || reach > far / 2.0
+        reach.is_nan() || reach > far / 2.0 - UNDERFLOW
     }
 }
 
