@@ -192,8 +192,6 @@ pub struct Visit {
     many: HashSet<u32>,
 }
 
-/// More than all that underflow can take away from a product of distances.
-const UNDERFLOW: f64 = 1e-290;
 /// Cells up to which a list is searched faster than a hash table.
 const FEW: usize = 24;
 
@@ -372,7 +370,7 @@ impl<'a> Part<'a> {
         };
         let reach = dot(self.center, g) + width + (self.doubt + 1e-14 * span) * span + UNDERFLOW;
         // An unknown (not a number) counts as reaching.
-        reach.is_nan() || reach > far / 2.0 - UNDERFLOW
+        reach.is_nan() || reach > far / 2.0
     }
 }
 
