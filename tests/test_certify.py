@@ -22,7 +22,6 @@ from crustline.shapes import (
     trefoil,
     two_octagons,
 )
-from crustline.shapes.nearest import nearest_site
 from crustline.shapes.sampling import r_sample
 from crustline.theory import guaranteed_r, sample_angle
 
@@ -94,7 +93,8 @@ class Sampled:
 
     def ratio(self, t: NDArray[np.float64]) -> float:
         """The sampling ratio, on the table."""
-        return float((nearest_site(self.points, self.curve.point(t))[0] / self.sizes).max())
+        away = self.points[:, None] - self.curve.point(t)
+        return float((np.hypot(away[..., 0], away[..., 1]).min(axis=1) / self.sizes).max())
 
     def edges(self, t: NDArray[np.float64]) -> Rows:
         loop = np.minimum((t * self.loops).astype(int), self.loops - 1)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import time
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -11,8 +12,9 @@ import pytest
 import generators
 from crustline import shapes
 from crustline.errors import InputError
-from crustline.shapes import SmoothCurve
+from crustline.shapes import SmoothCurve, contacts
 from crustline.shapes.bezier import bezier_loop
+from crustline.shapes.medial_axis import medial_axis
 from crustline.shapes.ratio import is_r_sample, sampling_ratio
 from crustline.shapes.sampling import Mode, Sample, r_sample, sample_for_error
 from crustline.theory import guaranteed_r
@@ -161,12 +163,64 @@ def _distances_to_polygon(p: FloatArray, sample: Sample) -> FloatArray:
     return best
 
 
-def test_a_thousand_samples_are_quick() -> None:
-    curve = shapes.ellipse(3, 1)
-    start = time.perf_counter()
-    sample = r_sample(curve, 0.01)
-    assert len(sample) > 800
-    assert time.perf_counter() - start < 3
+# --- Work, counted in places where the curve or its disks are looked at, which no load changes ---
+
+
+@pytest.fixture
+def work(monkeypatch: pytest.MonkeyPatch) -> Callable[[SmoothCurve], int]:
+    """Return a function that counts the work of sampling a curve with r = 0.3."""
+    counted = [0]
+
+    def on_loops(self: SmoothCurve, loop: Any, u: Any) -> Any:
+        counted[0] += len(u)
+        return evaluate(self, loop, u)
+
+    def touching(nodes: Any, rows: Any, x: Any) -> Any:
+        counted[0] += len(x)
+        return touch(nodes, rows, x)
+
+    def count(curve: SmoothCurve) -> int:
+        counted[0] = 0
+        medial_axis.cache_clear()
+        r_sample(curve, 0.3)
+        return counted[0]
+
+    evaluate, touch = SmoothCurve.on_loops, contacts._touching
+    monkeypatch.setattr(SmoothCurve, "on_loops", on_loops)
+    monkeypatch.setattr(contacts, "_touching", touching)
+    return count
+
+
+def row_of_circles(k: int) -> SmoothCurve:
+    return shapes.union(*[shapes.circle().moved(offset=(3 * i, 0)) for i in range(k)])
+
+
+def test_work_is_nearly_linear_in_the_loops(work: Callable[[SmoothCurve], int]) -> None:
+    """Twenty circles took over eight minutes: the sampling ratio came out infinite."""
+    assert work(row_of_circles(20)) < 2.8 * work(row_of_circles(10))
+
+
+def test_work_is_nearly_linear_in_the_features(work: Callable[[SmoothCurve], int]) -> None:
+    """Twice the lobes are four times the samples: the lobes are narrower, too."""
+    few, many = shapes.trefoil(10), shapes.trefoil(20)
+    more = len(r_sample(many, 0.3)) / len(r_sample(few, 0.3))
+    assert 3 < more < 5
+    assert work(many) < 1.4 * more * work(few)
+
+
+def test_work_is_nearly_linear_in_the_samples(work: Callable[[SmoothCurve], int]) -> None:
+    few = work(shapes.ellipse(3, 1))
+    assert work(shapes.ellipse(30, 1)) < 25 * few
+
+
+@pytest.mark.parametrize("loops", [6, 7, 49])
+def test_each_loop_has_its_own_places(loops: int) -> None:
+    """Rounding i/c · c leads to a neighboring loop for 6 and for 49 loops."""
+    curve = row_of_circles(loops)
+    first = curve.point(np.arange(loops) / loops)
+    assert np.array_equal(first, [[3 * i + 1, 0] for i in range(loops)])
+    corners = curve.point((np.arange(4 * loops)) / (4 * loops))
+    assert 0.7 < sampling_ratio(curve, corners) < 1.6
 
 
 def test_an_ellipse_of_aspect_ratio_1e9_is_refused_at_once() -> None:

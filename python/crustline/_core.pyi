@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 __all__ = [
     "Delaunay",
     "Interpolant",
+    "Tree",
     "__version__",
     "candidates",
     "connect",
@@ -69,6 +70,12 @@ def select_by_group(
     threads: int | None = None,
     progress: _Progress | None = None,
 ) -> _Integers: ...
+
+@final
+class Tree:
+    def __new__(cls, starts: _Floats, ends: _Floats) -> Tree: ...
+    def distances(self, places: _Floats) -> _Floats: ...
+
 def trace(
     points: _Floats,
     edges: _Integers,

@@ -34,3 +34,4 @@ pub use error::{Error, Result};
 pub use exact::predicates;
 pub use point::Point;
 pub use progress::Progress;
+pub use space::tree::Tree;

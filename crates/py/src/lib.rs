@@ -14,6 +14,7 @@ mod nesting;
 mod ridge;
 mod tiles;
 mod trace;
+mod tree;
 
 use pyo3::prelude::*;
 
@@ -44,6 +45,8 @@ mod _core {
     use crate::tiles::{candidates, decide, join_chains, stars, trace_tile, z_order};
     #[pymodule_export]
     use crate::trace::trace;
+    #[pymodule_export]
+    use crate::tree::Tree;
     use pyo3::prelude::*;
 
     #[pymodule_init]

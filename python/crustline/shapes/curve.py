@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from crustline.arrays import FloatArray, as_floats
+from crustline.arrays import FloatArray, IntArray, as_floats
 from crustline.errors import InputError, shown
 from crustline.scalars import LARGEST, as_real, as_rtol, as_size
 
@@ -117,14 +117,29 @@ class SmoothCurve:
         t = as_floats("t", t)
         if not np.isfinite(t).all():
             raise InputError(f"t must be finite, not {t[~np.isfinite(t)].flat[0]}")
-        place = (t.ravel() % 1.0) * len(self.loops)
-        which = np.minimum(place.astype(np.int64), len(self.loops) - 1)
-        out = np.empty((3, t.size, 2))
-        for i, loop in enumerate(self.loops):
-            here = which == i
-            out[:, here] = loop.derivatives(place[here] - i)
-        shaped = out.reshape((3, *t.shape, 2))
-        return shaped[0], shaped[1], shaped[2]
+        loop, u = self._place(t.ravel())
+        p, d1, d2 = (part.reshape((*t.shape, 2)) for part in self.on_loops(loop, u))
+        return p, d1, d2
+
+    def _place(self, t: FloatArray) -> tuple[IntArray, FloatArray]:
+        """Return the loop of each t and the place on it; what rounding leaves of i/c is i/c."""
+        c = len(self.loops)
+        place = t % 1.0 * c
+        whole = np.rint(place)
+        place = np.where(np.abs(place - whole) <= c * np.finfo(float).eps, whole, place)
+        loop = np.floor(place).astype(np.int64)
+        return loop % c, place - loop
+
+    def on_loops(self, loop: IntArray, u: FloatArray) -> Three:
+        """Return the same at places u, modulo 1, of loops by their number; all of shape (k,)."""
+        u = u % 1.0
+        out = np.empty((3, len(u), 2))
+        order = np.argsort(loop, kind="stable")
+        ends = np.searchsorted(loop[order], np.arange(len(self.loops) + 1))
+        for i in np.flatnonzero(np.diff(ends)):
+            rows = order[ends[i] : ends[i + 1]]
+            out[:, rows] = self.loops[i].derivatives(u[rows])
+        return out[0], out[1], out[2]
 
     def point(self, t: npt.ArrayLike) -> FloatArray:
         """Return the points at t, shape (..., 2)."""
@@ -141,8 +156,7 @@ class SmoothCurve:
     def curvature(self, t: npt.ArrayLike) -> FloatArray:
         """Return the curvature at t, positive where the curve turns to the left, shape (...)."""
         _, d1, d2 = self.derivatives(t)
-        cross = d1[..., 0] * d2[..., 1] - d1[..., 1] * d2[..., 0]
-        return np.asarray(cross / np.hypot(d1[..., 0], d1[..., 1]) ** 3)
+        return bend(d1, d2)
 
     def moved(
         self, *, scale: float = 1.0, angle: float = 0.0, offset: npt.ArrayLike = (0.0, 0.0)
@@ -272,6 +286,12 @@ def _as_offset(offset: npt.ArrayLike) -> FloatArray:
             f"offset must be a pair of numbers no larger than {LARGEST:g}, not {shown(offset)}"
         )
     return shift
+
+
+def bend(d1: FloatArray, d2: FloatArray) -> FloatArray:
+    """Return the curvature, given the first and the second derivative by any parameter."""
+    cross = d1[..., 0] * d2[..., 1] - d1[..., 1] * d2[..., 0]
+    return np.asarray(cross / np.hypot(d1[..., 0], d1[..., 1]) ** 3)
 
 
 def turned(v: FloatArray) -> FloatArray:

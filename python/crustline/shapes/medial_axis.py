@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 import numpy.typing as npt
 
+from crustline import _core
 from crustline.arrays import BoolArray, FloatArray, IntArray, as_points
 from crustline.errors import InputError
-from crustline.shapes.contacts import Nodes, contact_grid, refined
+from crustline.shapes.contacts import contact_grid, refined
 from crustline.shapes.curve import SmoothCurve, refuse_extent
-from crustline.shapes.nearest import nearest_site
+from crustline.shapes.nodes import Nodes
 
 # Where contacts no farther apart than this share of the radii have centers far apart, the axis
 # between the centers lies along the normal that they share.
@@ -49,20 +50,15 @@ class CurveMedialAxis:
     segments: IntArray
     error: float
 
+    @cached_property
+    def _tree(self) -> _core.Tree:
+        alone = np.delete(np.arange(len(self.vertices)), self.segments.ravel())
+        first, last = np.concatenate([self.segments, np.stack([alone, alone], -1)]).T
+        return _core.Tree(self.vertices[first], self.vertices[last])
+
     def distance(self, points: npt.ArrayLike) -> FloatArray:
         """Return the distance from each of points (k, 2) to the axis, shape (k,)."""
-        p = as_points(points)
-        distance, vertex = nearest_site(p, self.vertices)
-        for column in range(2):
-            # A vertex begins at most one segment and ends at most one: the two that its walk along
-            # the curve links.
-            link = np.full(len(self.vertices), -1)
-            link[self.segments[:, column]] = self.segments[:, 1 - column]
-            other = link[vertex]
-            k = np.flatnonzero(other >= 0)
-            foot = _distance_to_segments(p[k], self.vertices[vertex[k]], self.vertices[other[k]])
-            distance[k] = np.minimum(distance[k], foot)
-        return distance
+        return self._tree.distances(as_points(points))
 
 
 @lru_cache(maxsize=128)
@@ -75,20 +71,21 @@ def medial_axis(curve: SmoothCurve, rtol: float) -> CurveMedialAxis:
 
 
 def _refuse_extremes(curve: SmoothCurve) -> None:
-    t = np.arange(256 * len(curve.loops)) / (256 * len(curve.loops))
-    with np.errstate(all="ignore"):
-        points = curve.point(t)
-    finite = np.isfinite(points).all(axis=1)
-    if not finite.all():
-        raise InputError(
-            f"the curve's point at t = {t[np.argmin(finite)]:g} is not finite: correct the loop"
-        )
-    for part in np.split(points, len(curve.loops)):
-        refuse_extent(part)
+    u = np.arange(256) / 256
+    for part in curve.components:
+        with np.errstate(all="ignore"):
+            points = part.point(u)
+        finite = np.isfinite(points).all(axis=1)
+        if not finite.all():
+            raise InputError(
+                f"a loop's point at u = {u[np.argmin(finite)]:g} is not finite: correct the loop"
+            )
+        refuse_extent(points)
 
 
 def _known_axis(curve: SmoothCurve, ends: FloatArray) -> CurveMedialAxis:
-    radii, _ = nearest_site(ends, curve.point(np.arange(4096) / 4096))
+    places = curve.point(np.arange(4096) / 4096)
+    radii = _core.Tree(places, places).distances(ends)
     rows = np.arange(len(ends))
     return CurveMedialAxis(ends, radii, np.stack([rows[:-1], rows[1:]], -1), 0.0)
 
@@ -100,7 +97,7 @@ def _traced(grid: Nodes, disks: FloatArray, gap: float) -> tuple[Nodes, FloatArr
         left, right = (_far_apart(nodes, disks[k], sign, gap) for k, sign in ((0, 1), (1, -1)))
         return left | right
 
-    return refined(grid, disks, are_far_apart, grid)
+    return refined(grid, disks, are_far_apart)
 
 
 def _far_apart(nodes: Nodes, disks: FloatArray, side: int, gap: float) -> BoolArray:
@@ -114,12 +111,12 @@ def _far_apart(nodes: Nodes, disks: FloatArray, side: int, gap: float) -> BoolAr
     # A disk beyond half the extent matters to no point, so where the axis runs off its end may stay
     # rough.
     wide = both & apart & (step > gap * least)
-    return np.asarray(wide | (one & (least < 0.6 * nodes.extent())))
+    return np.asarray(wide | (one & (least < 0.6 * nodes.extent)))
 
 
 def _centers(nodes: Nodes, disks: FloatArray, side: int) -> tuple[FloatArray, FloatArray]:
     """Return centers on one side and radii, infinite where a disk is too large to matter."""
-    matters = disks * nodes.extent() > 1
+    matters = disks * nodes.extent > 1
     radius = np.where(matters, 1 / np.where(matters, disks, 1.0), np.inf)
     reach = np.where(matters, side * radius, 0.0)
     return nodes.point + reach[:, None] * nodes.normal, radius
@@ -140,11 +137,3 @@ def _linked(traced: tuple[Nodes, FloatArray], rtol: float) -> CurveMedialAxis:
         count += int(kept.sum())
     joined = np.concatenate(vertices), np.concatenate(radii), np.concatenate(segments)
     return CurveMedialAxis(*joined, error=rtol)
-
-
-def _distance_to_segments(p: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
-    d, e = b - a, p - a
-    square = d[:, 0] ** 2 + d[:, 1] ** 2
-    along = (d[:, 0] * e[:, 0] + d[:, 1] * e[:, 1]) / np.where(square > 0, square, 1.0)
-    foot = a + np.clip(along, 0.0, 1.0)[:, None] * d
-    return np.hypot(p[:, 0] - foot[:, 0], p[:, 1] - foot[:, 1])

@@ -7,15 +7,18 @@ from collections.abc import Callable
 import numpy as np
 import numpy.typing as npt
 
+from crustline import _core
 from crustline.arrays import FloatArray, as_points
 from crustline.errors import InputError
 from crustline.scalars import as_positive, as_rtol
 from crustline.shapes.curve import SmoothCurve, as_curve
-from crustline.shapes.nearest import nearest_site
 
 Allowance = Callable[[FloatArray], FloatArray]
 # Arcs and rounds of halving them at the most.
 MOST_ARCS, MOST_ROUNDS = 1 << 23, 60
+ARCS_PER_PIECE = 64
+# What is measured at a place: loop, parameter, point, distance to the samples, allowance, LFS.
+LOOP, U, X, Y, D, A, LFS = range(7)
 
 
 def sampling_ratio(curve: SmoothCurve, points: npt.ArrayLike, *, rtol: float = 1e-4) -> float:
@@ -83,15 +86,15 @@ def supremum(
     curve: SmoothCurve, sites: FloatArray, allowance: Allowance, lipschitz: float, rtol: float
 ) -> float:
     """Return the supremum of dist(p, sites) / allowance(LFS(p)), or 1 + rtol times it."""
-    axis = as_curve(curve).medial_axis(rtol=min(rtol, 1e-4))
+    axis, near = as_curve(curve).medial_axis(rtol=min(rtol, 1e-4)), _core.Tree(sites, sites)
 
-    def measured(t: FloatArray) -> FloatArray:
-        p = curve.point(t)
+    def measured(loop: FloatArray, u: FloatArray) -> FloatArray:
+        p = curve.on_loops(loop.astype(np.int64), u)[0]
         lfs = axis.distance(p)
-        return np.column_stack([t, p, nearest_site(p, sites)[0], allowance(lfs), lfs])
+        return np.column_stack([loop, u, p, near.distances(p), allowance(lfs), lfs])
 
     left, right = _arcs(curve, measured)
-    best, result = float((left[:, 3] / left[:, 4]).max()), 0.0
+    best, result = float((left[:, D] / left[:, A]).max()), 0.0
     for _ in range(MOST_ROUNDS):
         bound = _arc_bound(left, right, lipschitz)
         alive = bound > best * (1 + rtol)
@@ -99,8 +102,8 @@ def supremum(
         if not alive.any():
             break
         left, right = left[alive], right[alive]
-        middle = measured((left[:, 0] + right[:, 0]) / 2)
-        best = max(best, float((middle[:, 3] / middle[:, 4]).max()))
+        middle = measured(left[:, LOOP], (left[:, U] + right[:, U]) / 2)
+        best = max(best, float((middle[:, D] / middle[:, A]).max()))
         left, right = np.concatenate([left, middle]), np.concatenate([middle, right])
     else:
         result = max(result, float(bound.max()))
@@ -108,29 +111,24 @@ def supremum(
 
 
 def _arcs(
-    curve: SmoothCurve, measured: Callable[[FloatArray], FloatArray]
+    curve: SmoothCurve, measured: Callable[[FloatArray, FloatArray], FloatArray]
 ) -> tuple[FloatArray, FloatArray]:
     """Return the ends of arcs that cover the curve, each shorter than a quarter of LFS."""
-    c = len(curve.loops)
-    lefts, rights = [], []
-    for i, loop in enumerate(curve.loops):
-        k = 64 * loop.pieces
-        # The loop's end is not t = (i + 1)/c, which begins the next loop; it is just below.
-        t = np.append((i + np.arange(k) / k) / c, np.nextafter((i + 1) / c, 0))
-        ends = measured(t)
-        left, right = ends[:-1], ends[1:]
-        for _ in range(MOST_ROUNDS):
-            chord = np.hypot(*(left - right)[:, 1:3].T)
-            _refuse_too_long(chord, np.maximum(left[:, 5], right[:, 5]))
-            wide = chord > np.minimum(left[:, 5], right[:, 5]) / 4
-            if not wide.any():
-                break
-            middle = measured((left[wide, 0] + right[wide, 0]) / 2)
-            left = np.concatenate([left[~wide], left[wide], middle])
-            right = np.concatenate([right[~wide], middle, right[wide]])
-        lefts.append(left)
-        rights.append(right)
-    return np.concatenate(lefts), np.concatenate(rights)
+    counts = np.array([ARCS_PER_PIECE * loop.pieces + 1 for loop in curve.loops])
+    loop = np.repeat(np.arange(len(counts), dtype=float), counts)
+    ends = measured(loop, np.concatenate([np.linspace(0, 1, count) for count in counts]))
+    last = np.cumsum(counts) - 1
+    left, right = np.delete(ends, last, axis=0), np.delete(ends, last - counts + 1, axis=0)
+    for _ in range(MOST_ROUNDS):
+        chord = np.hypot(*(left - right)[:, X : Y + 1].T)
+        _refuse_too_long(chord, np.maximum(left[:, LFS], right[:, LFS]))
+        wide = chord > np.minimum(left[:, LFS], right[:, LFS]) / 4
+        if not wide.any():
+            break
+        middle = measured(left[wide, LOOP], (left[wide, U] + right[wide, U]) / 2)
+        left = np.concatenate([left[~wide], left[wide], middle])
+        right = np.concatenate([right[~wide], middle, right[wide]])
+    return left, right
 
 
 def _refuse_too_long(chord: FloatArray, lfs: FloatArray) -> None:
@@ -144,13 +142,13 @@ def _refuse_too_long(chord: FloatArray, lfs: FloatArray) -> None:
 
 
 def _arc_bound(left: FloatArray, right: FloatArray, lipschitz: float) -> FloatArray:
-    """Bound the ratio on arcs from their ends (t, x, y, distance, allowance, LFS)."""
-    chord = np.hypot(*(left - right)[:, 1:3].T)
-    lfs = np.minimum(left[:, 5], right[:, 5])
+    """Bound the ratio on arcs from their ends."""
+    chord = np.hypot(*(left - right)[:, X : Y + 1].T)
+    lfs = np.minimum(left[:, LFS], right[:, LFS])
     # The radius of curvature is at least LFS, which on the arc is at least 2/3 of that at its ends:
     # so the arc is no longer than that of a circle of that radius on the same chord, 2 R asin(chord
     # / 2R) ≤ chord (1 + chord² / 20 R²).
     arc = chord * (1 + 0.12 * (chord / lfs) ** 2)
-    distance = (left[:, 3] + right[:, 3] + arc) / 2
-    least = (left[:, 4] + right[:, 4] - lipschitz * arc) / 2
+    distance = (left[:, D] + right[:, D] + arc) / 2
+    least = (left[:, A] + right[:, A] - lipschitz * arc) / 2
     return np.where(least > 0, distance / np.where(least > 0, least, 1.0), np.inf)

@@ -190,11 +190,11 @@ def _sample(
 
 
 def _assembled(curve: SmoothCurve, loops: list[FloatArray]) -> Sample:
-    t = np.concatenate([(i + u) / len(loops) for i, u in enumerate(loops)])
-    edges, start = [], 0
-    for loop in loops:
-        i = start + np.arange(len(loop))
-        edges.append(np.sort(np.stack([i, np.roll(i, -1)], -1), axis=1))
-        start += len(loop)
-    pairs = np.unique(np.concatenate(edges), axis=0)
-    return Sample(curve.point(t), t, pairs[pairs[:, 0] < pairs[:, 1]])
+    u, counts = np.concatenate(loops), np.array([len(each) for each in loops])
+    loop = np.repeat(np.arange(len(loops)), counts)
+    starts = np.cumsum(counts) - counts
+    i = np.arange(len(u))
+    following = np.where(i + 1 < (starts + counts)[loop], i + 1, starts[loop])
+    pairs = np.unique(np.sort(np.stack([i, following], -1), axis=1), axis=0)
+    points = curve.on_loops(loop, u)[0]
+    return Sample(points, (loop + u) / len(loops), pairs[pairs[:, 0] < pairs[:, 1]])

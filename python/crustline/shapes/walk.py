@@ -8,9 +8,8 @@ from bisect import bisect_right
 from collections.abc import Callable
 
 import numpy as np
-import numpy.typing as npt
 
-from crustline.arrays import FloatArray, IntArray
+from crustline.arrays import BoolArray, FloatArray
 from crustline.errors import InputError
 from crustline.shapes.curve import SmoothCurve, as_curve
 from crustline.shapes.ratio import Allowance
@@ -19,40 +18,47 @@ from crustline.shapes.ratio import Allowance
 SHORTEST_STEP = 0.5
 # Samples at the most: they need a few minutes and two gigabytes.
 MOST_SAMPLES, MOST_HALVINGS = 1_000_000, 30
-# The columns of a table: the parameter, the point, the velocity by the parameter, the allowance.
-T, X, Y, VX, VY, A = range(6)
+# The columns of a table: loop, parameter, point, velocity by the parameter, allowance.
+LOOP, U, X, Y, VX, VY, A = range(7)
+#: Rows of a loop for each of its pieces, to begin with.
+ROWS_PER_PIECE = 128
 
 
 def tables(curve: SmoothCurve, allowance: Allowance) -> list[FloatArray]:
-    """Return for each loop rows (k, 6) so close that they can be interpolated; it closes."""
-    axis, c = as_curve(curve).medial_axis(), len(curve.loops)
+    """Return for each loop rows (k, 7) so close that they can be interpolated; it closes."""
+    axis = as_curve(curve).medial_axis()
 
-    def rows(i: int, u: FloatArray) -> FloatArray:
-        p, velocity, _ = curve.derivatives((i + u % 1.0) / c)
-        return np.column_stack([u, p, velocity, allowance(axis.distance(p))])
+    def rows(loop: FloatArray, u: FloatArray) -> FloatArray:
+        p, velocity, _ = curve.on_loops(loop.astype(np.int64), u)
+        return np.column_stack([loop, u, p, velocity, allowance(axis.distance(p))])
 
-    tables = []
-    for i, loop in enumerate(curve.loops):
-        table = rows(i, np.linspace(0.0, 1.0, 128 * loop.pieces + 1))
-        left = np.arange(len(table) - 1)
-        for _ in range(MOST_HALVINGS):
-            _refuse_too_many(table)
-            middle = rows(i, (table[left, T] + table[left + 1, T]) / 2)
-            bad = _badly_interpolated(table, left, middle)
-            if not bad.any():
-                break
-            table = np.insert(table, left[bad] + 1, middle[bad], axis=0)
-            first = left[bad] + np.arange(int(bad.sum()))
-            left = np.sort(np.concatenate([first, first + 1]))
-        tables.append(table)
-    return tables
+    counts = np.array([ROWS_PER_PIECE * loop.pieces + 1 for loop in curve.loops])
+    loop = np.repeat(np.arange(len(counts), dtype=float), counts)
+    first = rows(loop, np.concatenate([np.linspace(0, 1, count) for count in counts]))
+    ends = np.cumsum(counts) - 1
+    left, right = np.delete(first, ends, axis=0), np.delete(first, ends - counts + 1, axis=0)
+    done, certain = [first[ends]], 0.0
+    for _ in range(MOST_HALVINGS):
+        _refuse_too_many(certain + _least_samples(left, right))
+        middle = rows(left[:, LOOP], (left[:, U] + right[:, U]) / 2)
+        bad = _badly_interpolated(left, right, middle)
+        done.append(left[~bad])
+        certain += _least_samples(left[~bad], right[~bad])
+        left, middle, right = left[bad], middle[bad], right[bad]
+        left, right = np.concatenate([left, middle]), np.concatenate([middle, right])
+    every = np.concatenate([*done, left])
+    every = every[np.lexsort((every[:, U], every[:, LOOP]))]
+    return np.split(every, np.flatnonzero(np.diff(every[:, LOOP])) + 1)
 
 
-def _refuse_too_many(table: FloatArray) -> None:
-    """Refuse a loop that surely needs too many samples: at least ∫ ds / 2A, A being Lipschitz."""
-    chord = np.hypot(*np.diff(table[:, X : Y + 1], axis=0).T)
-    most = np.maximum(table[1:, A], table[:-1, A]) + chord / 2
-    least = float((chord / (2 * most)).sum())
+def _least_samples(left: FloatArray, right: FloatArray) -> float:
+    """Return how many samples intervals need at least: ∫ ds / 2A, A being Lipschitz."""
+    chord = np.hypot(*(right - left)[:, X : Y + 1].T)
+    most = np.maximum(left[:, A], right[:, A]) + chord / 2
+    return float((chord / (2 * most)).sum())
+
+
+def _refuse_too_many(least: float) -> None:
     if least > MOST_SAMPLES:
         raise InputError(
             f"the curve needs more than {MOST_SAMPLES:,} samples, the most that are made: "
@@ -60,15 +66,11 @@ def _refuse_too_many(table: FloatArray) -> None:
         )
 
 
-def _badly_interpolated(
-    table: FloatArray, left: IntArray, middle: FloatArray
-) -> npt.NDArray[np.bool_]:
+def _badly_interpolated(p: FloatArray, q: FloatArray, middle: FloatArray) -> BoolArray:
     """Return whether the rows in the middle of intervals differ from what their ends say."""
-    p, q = table[left], table[left + 1]
-    h = (q[:, T] - p[:, T])[:, None]
-    hermite = (p[:, X : Y + 1] + q[:, X : Y + 1]) / 2 + h * (
-        p[:, VX : VY + 1] - q[:, VX : VY + 1]
-    ) / 8
+    h = (q[:, U] - p[:, U])[:, None]
+    bow = h * (p[:, VX : VY + 1] - q[:, VX : VY + 1]) / 8
+    hermite = (p[:, X : Y + 1] + q[:, X : Y + 1]) / 2 + bow
     off = np.hypot(*(hermite - middle[:, X : Y + 1]).T)
     bad = off > 1e-6 * middle[:, A]
     bad |= np.abs((p[:, A] + q[:, A]) / 2 - middle[:, A]) > 3e-5 * middle[:, A]
@@ -81,9 +83,9 @@ class Walk:
 
     def __init__(self, table: FloatArray) -> None:
         again = table[1:].copy()
-        again[:, T] += 1.0
+        again[:, U] += 1.0
         # Arrays of numbers take a fifth of the memory of lists, and no more time.
-        columns = np.vstack([table, again]).T
+        columns = np.vstack([table, again])[:, U:].T
         self.columns: list[array[float]] = [array("d", column) for column in columns]
 
     def samples(self, start: float, share: float, random: np.random.Generator | None) -> FloatArray:
@@ -125,7 +127,7 @@ class Walk:
         self, u: float, excess: Callable[[float], float], at_row: Callable[[int], float]
     ) -> float:
         """Return the first v after u where excess turns positive: at the rows, then between."""
-        t = self.columns[T]
+        t = self.columns[0]
         k = bisect_right(t, u)
         while k < len(t) and at_row(k) <= 0:
             k += 1

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 const RUN: usize = 64;
 /// The level down to which they do; there boxes are about as large as the runs.
 const MIDDLE: usize = 2;
-/// A box is not opened for a gain smaller than this part of the squared distance.
+/// Where segments are joined, a box is not opened for a gain smaller than this part of the squared distance.
 const GAIN: f64 = 1e-3;
 /// Segments that one task joins at a time.
 const GRAIN: usize = 1 << 14;
@@ -47,14 +47,43 @@ impl Line {
 pub struct Tree {
     lines: Vec<Line>,
     boxes: Boxes,
+    gain: f64,
 }
 
 impl Tree {
-    /// A tree of `segments`. Queries are within `bounds`.
+    /// A tree of `segments`, joined where they are in line. Queries are within `bounds`.
     pub fn new(segments: &[Segment], bounds: Bounds) -> Self {
-        let segments = joined(segments, &order(segments, bounds));
-        let boxes = Boxes::new(&segments, |segment| Bounds::of(&segment.ends));
-        Self { lines: segments.par_iter().map(Line::new).collect(), boxes }
+        Self::of(&joined(segments, &order(segments, bounds)), GAIN)
+    }
+
+    /// A tree of the segments between `ends`, perhaps points, as they are: distances are exact but for rounding.
+    pub fn exact(ends: &[[Point; 2]]) -> Self {
+        let bounds = Bounds::of(ends.as_flattened());
+        let segments: Vec<Segment> = ends.iter().map(|&ends| Segment::new(ends, 0.0)).collect();
+        let ordered: Vec<Segment> =
+            order(&segments, bounds).into_iter().map(|k| segments[k as usize]).collect();
+        Self::of(&ordered, 0.0)
+    }
+
+    fn of(segments: &[Segment], gain: f64) -> Self {
+        let boxes = Boxes::new(segments, |segment| Bounds::of(&segment.ends));
+        Self { lines: segments.par_iter().map(Line::new).collect(), boxes, gain }
+    }
+
+    /// The distance from each place to the nearest segment, infinite if there is none; places as for `nearest`.
+    pub fn distances(&self, places: &[Point]) -> Vec<f64> {
+        // Squares of distances beyond 1e154 are infinite: one segment is as near as another then.
+        let far = |(&p, (segment, distance)): (&Point, (u32, f64))| match self
+            .lines
+            .get(segment as usize)
+        {
+            Some(line) if distance.is_infinite() => {
+                (p[0] - line.start[0]).hypot(p[1] - line.start[1])
+            }
+            _ => distance,
+        };
+        let parts = places.par_chunks(GRAIN);
+        parts.flat_map_iter(|part| part.iter().zip(self.nearest(part)).map(far)).collect()
     }
 
     /// The distance from `p` to a segment, infinite if there is none.
@@ -119,7 +148,7 @@ impl Search<'_> {
         self.stack.clear();
         self.push(p, best, level, boxes.iter().copied());
         while let Some(node) = self.stack.pop() {
-            if node.square >= best * (1.0 - GAIN) {
+            if node.square >= best * (1.0 - self.tree.gain) {
                 continue;
             }
             let children = self.tree.boxes.children(node.level, node.number);
@@ -144,7 +173,7 @@ impl Search<'_> {
         let boxes = self.tree.boxes.level(level);
         for number in nodes {
             let square = boxes[number as usize].square_to(p);
-            if square < best * (1.0 - GAIN) {
+            if square < best * (1.0 - self.tree.gain) {
                 self.stack.push(Node { square, level, number });
             }
         }
@@ -233,6 +262,19 @@ mod tests {
                 assert_eq!(distance, tree.distance_to(segment, place));
             }
         }
+    }
+
+    #[test]
+    fn an_exact_tree_joins_nothing() {
+        let ends: Vec<_> = chains(60).iter().map(|segment| segment.ends).collect();
+        let places: Vec<Point> = (0..99).map(|k| [f64::from(k) / 99.0, 0.3]).collect();
+        let nearest = |&p: &Point| {
+            let squares = ends.iter().map(|&ends| Line::new(&Segment::new(ends, 0.0)).square(p));
+            squares.fold(f64::INFINITY, f64::min).sqrt()
+        };
+        let expected: Vec<f64> = places.iter().map(nearest).collect();
+        assert_eq!(Tree::exact(&ends).distances(&places), expected);
+        assert_eq!(Tree::exact(&[[[0.0; 2]; 2]]).distances(&[[0.0, 5e200]]), [5e200]);
     }
 
     #[test]
