@@ -133,3 +133,80 @@ def test_options_are_what_functions_take() -> None:
     for each in FORMATS.values():
         taken = {option for task in tasks for option in each.options_of(task)}
         assert taken == set(each.options), each.name
+
+
+GROUPS = "name,x,y\n" + "".join(
+    f"{name},{x + shift},{y}\n"
+    for x, y in [(0, 0), (1, 0), (1, 1), (0, 1)]
+    for name, shift in (("a", 0), ("b", 0.5))
+)
+
+
+def test_points_of_one_group_are_joined_only(run: Run) -> None:
+    """310 shapes of one file once gave 310 open curves."""
+    Path("groups.csv").write_text(GROUPS)
+    code, _, err = run("reconstruct", "groups.csv", "--by", "name", "-o", "a.geojson")
+    assert (code, "2 rings, 0 open curves" in err) == (0, True)
+    names = [
+        each["properties"]["name"] for each in json.loads(Path("a.geojson").read_text())["features"]
+    ]
+    assert sorted(map(set, names), key=sorted) == [{"a"}, {"b"}]
+    code, _, err = run("reconstruct", "groups.csv", "--by", "shape")
+    assert (code, "'name'" in err) == (2, True)
+
+
+def test_a_dry_run_writes_nothing(run: Run) -> None:
+    code, _, err = run("reconstruct", "table.csv", "-o", "a.geojson", "--dry-run")
+    assert (code, "would write a.geojson" in err) == (0, True)
+    assert not Path("a.geojson").exists()
+
+
+def test_verbose_says_how_the_input_was_understood(run: Run) -> None:
+    code, _, err = run("convert", "table.csv", "-o", "a.csv", "-v")
+    assert (code, "decimal mark: comma" in err) == (0, True)
+
+
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_many_files_in_one_run(run: Run, jobs: str) -> None:
+    Path("groups.csv").write_text(GROUPS)
+    code, _, err = run("batch", "*.csv", "-o", "{stem}.geojson", "-j", jobs)
+    assert (code, err.startswith("2 files done, 0 failed")) == (0, True)
+    assert len(read("groups.geojson")) == 8
+
+
+def test_many_files_go_on_after_a_failure_if_asked(run: Run) -> None:
+    Path("bad.csv").write_text("x,y\n1,a\n")
+    code, _, err = run("batch", "bad.csv", "table.csv", "-o", "{stem}.wkt", "-j", "1")
+    assert (code, "1 not tried: add --keep-going" in err) == (2, True)
+    assert not Path("table.wkt").exists()
+    code, _, err = run(
+        "batch", "bad.csv", "table.csv", "-o", "{stem}.wkt", "-j", "1", "--keep-going"
+    )
+    assert (code, "1 file done, 1 failed" in err, "line 2" in err) == (2, True, True)
+    assert Path("table.wkt").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "word"),
+    [
+        (["batch", "none*.csv", "-o", "{stem}.wkt"], "none*.csv"),
+        (["batch", "table.csv", "table.csv", "-o", "a.wkt"], "{stem}"),
+        (["batch", "table.csv", "./table.csv", "-o", "{stem}.wkt"], "twice"),
+        (["batch", "table.csv", "-o", "{stem}.csv"], "is an input"),
+        (["batch", "table.csv", "-o", "{stem}.csv.q"], "no format"),
+        (["batch", "table.csv", "-o", "none/{stem}.wkt"], "no folder"),
+    ],
+)
+def test_many_files_that_would_ruin_something(run: Run, arguments: list[str], word: str) -> None:
+    code, _, err = run(*arguments)
+    assert (code, word in err, err.count("\n")) == (2, True, 1)
+
+
+def test_many_files_are_projected_in_other_processes(run: Run) -> None:
+    """A method that no other process could take once made the run wait for ever."""
+    pytest.importorskip("pyproj")
+    for name in ("a", "b"):
+        Path(f"{name}.txt").write_text("8,47\n8.1,47\n8.1,47.1\n8,47.1\n")
+    options = ["--crs", "EPSG:4326", "--project", "auto", "-j", "2"]
+    code, _, err = run("batch", "a.txt", "b.txt", "-o", "{stem}.geojson", *options)
+    assert (code, "2 files done, 0 failed" in err) == (0, True)

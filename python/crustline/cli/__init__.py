@@ -16,6 +16,7 @@ from typing import Any, NoReturn
 
 import click
 
+from crustline.cli.batch import batch
 from crustline.cli.certify import certify
 from crustline.cli.info import convert, info
 from crustline.cli.medial_axis import medial_axis
@@ -108,6 +109,7 @@ def commands(context: click.Context) -> None:
 
 
 for _command in (
-    reconstruct, info, certify, smooth, plot, medial_axis, thin, sample, convert, list_methods,
+    reconstruct, batch, info, certify, smooth, plot, medial_axis, thin, sample, convert,
+    list_methods,
 ):  # fmt: skip
     commands.add_command(_command)

@@ -15,7 +15,7 @@ import click
 from crustline.cli.method import Command
 from crustline.cli.source import format_options
 from crustline.errors import InputError
-from crustline.formats.catalog import FORMATS, able, format_of_target, options_for, suffixes_for
+from crustline.formats.catalog import able, format_of_target, options_for, suffixes_for
 from crustline.formats.format import Format
 from crustline.formats.target import Target, check_writable
 
@@ -29,16 +29,13 @@ class Output:
     quiet: bool
     task: str = ""
     settings: dict[str, Any] = field(default_factory=dict)
+    dry_run: bool = False
     started: float = field(default_factory=time.perf_counter)
 
     def write(self, thing: Any) -> None:
         """Write a thing to each file, with those of the settings that its format knows."""
-        from crustline.formats import write
-
-        for file, form in self.files.items():
-            known = {option.name for option in FORMATS[form].options_of(self.task)}
-            settings = {name: value for name, value in self.settings.items() if name in known}
-            write(thing, file, format=form, **settings)
+        for file, form in self.files.items() if not self.dry_run else ():
+            write_with(thing, file, form, self.task, self.settings)
 
     def report(self, sentence: str, summary: dict[str, Any]) -> None:
         """Say in a line, or as JSON, what was done; both end with the files and the seconds."""
@@ -49,8 +46,20 @@ class Output:
         elif not self.quiet:
             names = ("standard output" if each == "-" else each for each in self.files)
             written = ", ".join(names)
-            end = f"wrote {written}" if written else "nothing written: add -o FILE"
+            verb = "would write" if self.dry_run else "wrote"
+            end = f"{verb} {written}" if written else "nothing written: add -o FILE"
             click.echo(f"{sentence}; {seconds:.2f} s; {end}", err=True)
+
+
+def write_with(
+    thing: Any, file: str, form: str | None, task: str, settings: dict[str, Any]
+) -> None:
+    """Write a thing to a file, with those of some settings that its format knows."""
+    from crustline.formats import write
+
+    chosen = format_of_target(Target(file), form, task)
+    known = {option.name for option in chosen.options_of(task)}
+    write(thing, file, format=chosen.name, **{k: v for k, v in settings.items() if k in known})
 
 
 def _files_option(what: str, *, required: bool) -> Callable[[Command], Command]:
@@ -113,7 +122,12 @@ def picture_options(*suffixes: str, pipe: bool = False) -> Callable[[Command], C
 
 
 def summary_options(command: Command) -> Command:
-    """Give a command --json and -q, as they are."""
+    """Give a command --json, --dry-run, -v and -q, as they are."""
+    command = click.option("--dry-run", is_flag=True, help="Do the work, but write nothing.")(
+        command
+    )
+    command = click.option("-v", "--verbose", is_flag=True, expose_value=False, callback=_verbose,
+                           help="Say how the input was understood, too.")(command)  # fmt: skip
     command = click.option("-q", "--quiet", is_flag=True, help="No summary and no progress bar.")(
         command
     )
@@ -130,8 +144,12 @@ def _pass_output(
     task: str = "",
     settings: dict[str, Any] | None = None,
 ) -> None:
-    as_json, quiet = options.pop("as_json"), options.pop("quiet")
-    command(output=Output(files, as_json, quiet, task, settings or {}), **options)
+    as_json, quiet, dry = (options.pop(name) for name in ("as_json", "quiet", "dry_run"))
+    command(output=Output(files, as_json, quiet, task, settings or {}, dry), **options)
+
+
+def _verbose(context: click.Context, option: click.Parameter, value: bool) -> None:
+    context.meta["crustline.verbose"] = value
 
 
 def _checked(settings: dict[str, Any], formats: dict[str, str], task: str) -> dict[str, Any]:

@@ -40,7 +40,7 @@ def plot(source: Source, output: Output, show: str, method: Method) -> None:
     from crustline.plot import picture
 
     with reconstruction(source, method, output.quiet) as made:
-        for file in output.files:
+        for file in output.files if not output.dry_run else ():
             picture(made, file, show=layers)
     count = len(made.points)
     output.report(

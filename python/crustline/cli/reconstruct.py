@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -13,17 +13,22 @@ from crustline.cli.method import Method, method_options
 from crustline.cli.output import Output, counted, output_options
 from crustline.cli.progress import progress_bar
 from crustline.cli.source import Source, source_options
-from crustline.errors import FormatWarning
+from crustline.errors import FormatWarning, InputError
+from crustline.formats.names import quote_all
 
 if TYPE_CHECKING:
+    from crustline.arrays import IntArray
+    from crustline.delaunay import Delaunay
+    from crustline.points import Points
     from crustline.reconstruction import Reconstruction
 
 
 @click.command()
 @source_options
 @output_options("write_curves")
+@click.option("--by", metavar="COLUMN", help="Connect only points of equal value in a column.")
 @method_options
-def reconstruct(source: Source, output: Output, method: Method) -> None:
+def reconstruct(source: Source, output: Output, by: str | None, method: Method) -> None:
     """Find the curves that points were sampled from.
 
     INPUT is a file of points; - is standard input. Writes rings and lines, each in order, with the
@@ -32,7 +37,7 @@ def reconstruct(source: Source, output: Output, method: Method) -> None:
     \b
         crustline reconstruct goose.csv -o goose.geojson -o goose.svg
     """
-    with reconstruction(source, method, output.quiet) as made:
+    with reconstruction(source, method, output.quiet, by) as made:
         counts = _count(made)
     output.write(made.curves)
     output.report(
@@ -42,7 +47,9 @@ def reconstruct(source: Source, output: Output, method: Method) -> None:
 
 
 @contextmanager
-def reconstruction(source: Source, method: Method, quiet: bool) -> Iterator[Reconstruction]:
+def reconstruction(
+    source: Source, method: Method, quiet: bool, by: str | None = None
+) -> Iterator[Reconstruction]:
     """Read a source, and yield what a method makes of it, under a progress bar."""
     from crustline.delaunay import Delaunay
     from crustline.reconstruction import Reconstruction
@@ -57,7 +64,21 @@ def reconstruction(source: Source, method: Method, quiet: bool) -> Iterator[Reco
         )
     with progress_bar(quiet) as progress:
         delaunay = Delaunay(points, threads=source.threads, progress=progress)
-        yield Reconstruction(delaunay, method.function, **method.parameters)
+        if by is None:
+            yield Reconstruction(delaunay, method.function, **method.parameters)
+        else:
+            yield Reconstruction(delaunay, _grouped(points, by, method))
+
+
+def _grouped(points: Points, by: str, method: Method) -> Callable[[Delaunay], IntArray]:
+    """Return the method within each group of points of equal value in a column."""
+    from crustline.methods import by_group
+
+    if by not in points.columns:
+        has = f"choose from {quote_all(list(points.columns))}" if points.columns else "it has none"
+        raise InputError(f"--by {by!r:.40} is no column beside x and y: {has}")
+    groups = points.columns[by]
+    return lambda delaunay: by_group(delaunay, groups, method.function, **method.parameters)
 
 
 def _count(made: Reconstruction) -> dict[str, int]:

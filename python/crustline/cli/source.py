@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -30,15 +30,33 @@ class Source:
 
     def read(self, opened: Bytes | None = None) -> Points:
         """Return its points; what was opened keeps notes of how it was understood."""
+        from crustline.formats import Source as Opened
         from crustline.formats import read
 
-        return read(opened or self.name, format=self.format, crs=self.crs, **self.settings)
+        opened = opened or Opened(self.name)
+        points = read(opened, format=self.format, crs=self.crs, **self.settings)
+        context = click.get_current_context(silent=True)
+        if context and context.meta.get("crustline.verbose"):
+            for subject, finding in opened.notes.items():
+                click.echo(f"crustline: {opened.name}: {subject}: {finding}", err=True)
+        return points
 
 
 def source_options(command: Command) -> Command:
     """Give a command the argument INPUT and its options; it takes `source: Source`."""
 
     @click.argument("name", metavar="INPUT")
+    @reading_options
+    @functools.wraps(command)
+    def run(name: str, source: Source, **rest: Any) -> None:
+        command(source=replace(source, name=name), **rest)
+
+    return run
+
+
+def reading_options(command: Command) -> Command:
+    """Give a command the options of its input alone; it takes `source: Source` without a name."""
+
     @click.option("--input-format", metavar="F", help=f"{_names()}, whatever the name says.")
     @click.option("--crs", metavar="C", help="The CRS of the input, such as EPSG:4326.")
     @format_options("read")
@@ -46,14 +64,13 @@ def source_options(command: Command) -> Command:
                   help="How many threads to use.")  # fmt: skip
     @functools.wraps(command)
     def run(
-        name: str,
         input_format: str | None,
         crs: str | None,
         threads: int | None,
         given: dict[str, Any],
         **rest: Any,
     ) -> None:
-        command(source=Source(name, input_format, crs, threads, given), **rest)
+        command(source=Source("", input_format, crs, threads, given), **rest)
 
     return run
 

@@ -107,7 +107,10 @@ def split(line: str, separator: str) -> list[str]:
     """Return the cells of one line."""
     if separator == " ":
         return _split_spaces(line)
-    return next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
+    try:
+        return next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
+    except csv.Error:  # an end of line within it: no quotes are worth a thought
+        return line.split(separator)
 
 
 def _split_spaces(line: str) -> list[str]:
