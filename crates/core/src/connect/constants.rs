@@ -94,9 +94,9 @@ pub const GAP_SURE: f32 = 10.0;
 /// Where the longest usual step is e to this power times the lower quartile, that is trusted half.
 pub const GAP_SPREAD: f32 = 1.5;
 /// The most sweeps of messages a round: a message goes as many edges far.
-pub const SWEEPS: usize = 12;
+pub const SWEEPS: usize = 20;
 /// Messages that change by no more than this have converged; an end costs 1.
-pub const CONVERGED: f32 = 3e-2;
+pub const CONVERGED: f32 = 1e-2;
 /// Components of fewer points than this are dropped where points are isolated: outliers pair up.
 pub const FEWEST: usize = 4;
 /// How many isolated points it takes to prune at all.
