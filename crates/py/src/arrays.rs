@@ -1,6 +1,7 @@
 //! Between NumPy arrays and the slices of the core.
 
 use crate::errors::input_error;
+use crate::threads::aside;
 use crustline_core::Point;
 use numpy::{Element, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -82,16 +83,18 @@ pub fn values<T: Element>(py: Python<'_>, values: Vec<T>) -> Bound<'_, PyArray1<
 fn fill<'py, S: Sync, T: Element + Copy>(
     array: &Bound<'py, PyArray2<T>>,
     source: &[S],
-    convert: impl Fn(&S) -> T + Sync,
+    convert: impl Fn(&S) -> T + Sync + Send,
 ) -> PyResult<Bound<'py, PyArray2<T>>> {
     let mut writable = array.readwrite();
-    let (targets, parts) =
-        (writable.as_slice_mut()?.par_chunks_mut(GRAIN), source.par_chunks(GRAIN));
-    targets.zip(parts).for_each(|(targets, values)| {
-        for (target, value) in targets.iter_mut().zip(values) {
-            *target = convert(value);
-        }
-    });
+    let targets = writable.as_slice_mut()?;
+    aside(array.py(), || {
+        let parts = source.par_chunks(GRAIN);
+        targets.par_chunks_mut(GRAIN).zip(parts).for_each(|(targets, values)| {
+            for (target, value) in targets.iter_mut().zip(values) {
+                *target = convert(value);
+            }
+        });
+    })?;
     writable.make_nonwriteable();
     Ok(array.clone())
 }

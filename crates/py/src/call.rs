@@ -1,12 +1,11 @@
 //! Calls of the core: off the interpreter lock, on a chosen number of threads, observable and interruptible.
 
 use crate::errors::exception;
+use crate::threads::Threads;
 use crustline_core::{Progress, Result};
 use pyo3::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuilder};
-use std::collections::HashMap;
+use std::sync::Mutex;
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::sync::{Arc, LazyLock, Mutex};
 use std::time::Duration;
 
 /// Points below which a call takes less time than it takes to start a thread that watches it.
@@ -33,7 +32,8 @@ impl Call {
     ) -> PyResult<T> {
         let progress = Progress::default();
         let result = if self.size < SMALL {
-            py.detach(|| work(&progress))
+            let threads = Threads::get(py, None)?;
+            py.detach(|| threads.run(|| work(&progress)))
         } else {
             self.watch(py, &progress, work)?
         };
@@ -46,14 +46,11 @@ impl Call {
         progress: &Progress,
         work: impl FnOnce(&Progress) -> Result<T> + Send,
     ) -> PyResult<Result<T>> {
-        let pool = self.threads.map(pool);
+        let threads = Threads::get(py, self.threads)?;
         let (sender, receiver) = channel();
         std::thread::scope(|scope| {
             let worker = scope.spawn(move || {
-                let result = match pool {
-                    Some(pool) => pool.install(|| work(progress)),
-                    None => work(progress),
-                };
+                let result = threads.run(|| work(progress));
                 // The receiver waits in this scope, so it is there.
                 let _ = sender.send(());
                 result
@@ -82,15 +79,4 @@ impl Call {
         }
         Ok(())
     }
-}
-
-/// The pool of `threads` threads, made once: starting one takes longer than many a call.
-fn pool(threads: usize) -> Arc<ThreadPool> {
-    static POOLS: LazyLock<Mutex<HashMap<usize, Arc<ThreadPool>>>> = LazyLock::new(Mutex::default);
-    let mut pools = POOLS.lock().expect("no thread panics while it holds the lock");
-    let make = || {
-        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-        Arc::new(pool.expect("the system gives threads"))
-    };
-    Arc::clone(pools.entry(threads).or_insert_with(make))
 }

@@ -2,6 +2,7 @@
 
 use crate::arrays::{coordinates, integer_rows, integers, points, values};
 use crate::call::Call;
+use crate::threads::aside;
 use crustline_core as core;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -37,13 +38,13 @@ impl Delaunay {
 
     /// The triangles (t, 3), counter-clockwise, as rows.
     fn triangles<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<i64>>> {
-        integer_rows(py, &py.detach(|| self.inner.row_triangles()))
+        integer_rows(py, &aside(py, || self.inner.row_triangles())?)
     }
 
     /// The twin of each half-edge (3t,), −1 on the hull.
-    fn halfedges<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
-        let twins = py.detach(|| self.inner.twins());
-        integers(py, twins.into_iter().map(|twin| twin.map_or(-1, i64::from)))
+    fn halfedges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<i64>>> {
+        let twins = aside(py, || self.inner.twins())?;
+        Ok(integers(py, twins.into_iter().map(|twin| twin.map_or(-1, i64::from))))
     }
 
     /// The hull (h,), counter-clockwise, as rows.
@@ -54,17 +55,17 @@ impl Delaunay {
 
     /// The circumcenters (t, 2).
     fn circumcenters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        coordinates(py, py.detach(|| self.inner.circumcenters()))
+        coordinates(py, aside(py, || self.inner.circumcenters())?)
     }
 
     /// The circumradii (t,).
-    fn circumradii<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        values(py, py.detach(|| self.inner.circumradii()))
+    fn circumradii<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        Ok(values(py, aside(py, || self.inner.circumradii())?))
     }
 
     /// The edges (m, 2), i < j, sorted, as rows.
     fn edges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<i64>>> {
-        integer_rows(py, &py.detach(|| core::edges::all(&self.inner)))
+        integer_rows(py, &aside(py, || core::edges::all(&self.inner))?)
     }
 
     /// The duplicates (d, 2): row, and the first row with the same coordinates.

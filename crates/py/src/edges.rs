@@ -2,6 +2,7 @@
 
 use crate::arrays::rows;
 use crate::errors::input_error;
+use crate::threads::aside;
 use crustline_core::edges::Edges;
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
@@ -25,7 +26,8 @@ fn are_canonical(edges: &[[i64; 2]], points: i64) -> bool {
 /// The edges as canonical ones of the core: i < j, sorted, unique, within the points.
 pub fn canonical(py: Python<'_>, edges: &[[i64; 2]], points: usize) -> PyResult<Edges> {
     if are_canonical(edges, points as i64) {
-        return Ok(edges.par_iter().map(|edge| edge.map(|row| row as u32)).collect());
+        let rows = |edge: &[i64; 2]| edge.map(|row| row as u32);
+        return aside(py, || edges.par_iter().map(rows).collect());
     }
     let inside = |&row: &i64| row >= 0 && (row as usize) < points;
     if let Some(k) = edges.iter().position(|edge| edge[0] == edge[1] || !edge.iter().all(inside)) {

@@ -4,6 +4,7 @@ use crate::arrays::{integers, rows, values};
 use crate::call::Call;
 use crate::delaunay::Delaunay;
 use crate::edges::canonical;
+use crate::threads::aside;
 use crustline_core as core;
 use crustline_core::certify::{Measures, measure};
 use crustline_core::edges::Edges;
@@ -70,9 +71,9 @@ impl Interpolant {
     }
 
     /// The local feature size at each row.
-    fn sizes<'py>(&self, py: Python<'py>) -> Floats<'py> {
+    fn sizes<'py>(&self, py: Python<'py>) -> PyResult<Floats<'py>> {
         let delaunay = self.delaunay.get().core();
-        values(py, py.detach(|| self.inner.at_rows(delaunay)))
+        Ok(values(py, aside(py, || self.inner.at_rows(delaunay))?))
     }
 
     /// The sampling ratio of each edge, and the turn and the degree of each row.

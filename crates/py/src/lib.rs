@@ -12,6 +12,7 @@ mod medial_axis;
 mod methods;
 mod nesting;
 mod ridge;
+mod threads;
 mod tiles;
 mod trace;
 mod tree;

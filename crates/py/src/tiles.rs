@@ -5,6 +5,7 @@ use crate::call::Call;
 use crate::delaunay::Delaunay;
 use crate::edges::canonical;
 use crate::errors::input_error;
+use crate::threads::aside;
 use crustline_core::Point;
 use crustline_core::tiles::{
     self, Bounds, Candidates, Chain, Decide, Joined, Question, Site, Unseen,
@@ -192,7 +193,7 @@ pub fn join_chains<'py>(
     let chains = chains_of(sites.as_slice()?, rows(py, &places)?, edges.as_slice()?);
     let degrees: Vec<(i64, u32)> =
         rows(py, &degrees)?.iter().map(|&[row, degree]| (row, degree as u32)).collect();
-    let (whole, open) = py.detach(|| tiles::join(&chains, &degrees));
+    let (whole, open) = aside(py, || tiles::join(&chains, &degrees))?;
     Ok([joined_arrays(py, &whole)?, joined_arrays(py, &open)?])
 }
 

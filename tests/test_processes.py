@@ -1,0 +1,138 @@
+"""Processes: forked ones work as their parents do; threads have an end."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+
+import pytest
+
+pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="the system cannot fork")
+
+#: Longer than any of these takes; only a deadlock is stopped by it.
+DEADLOCK = 120
+
+PARENT = """
+import concurrent.futures, multiprocessing, os, sys
+import numpy as np
+import crustline as cl
+points = np.random.default_rng(1).random((20_000, 2))
+few = points[:3_000]
+def work(threads=None):
+    delaunay = cl.Delaunay(points, threads=threads)
+    edges = cl.crust(delaunay)
+    cl.medial_axis(delaunay, edges)
+    cl.certify(few)
+    return len(delaunay.triangles), len(edges)
+expected = work()
+fork = multiprocessing.get_context("fork")
+"""
+
+FORKS = {
+    "multiprocessing": """
+with fork.Pool(2) as pool:
+    found = pool.map(work, [None, 1, 2])
+""",
+    "concurrent_futures": """
+with concurrent.futures.ProcessPoolExecutor(2, mp_context=fork) as pool:
+    found = list(pool.map(work, [None, 1, 2]))
+""",
+    "a_child_of_a_child": """
+def below(_):
+    with concurrent.futures.ProcessPoolExecutor(1, mp_context=fork) as pool:
+        return pool.submit(work).result()
+with concurrent.futures.ProcessPoolExecutor(1, mp_context=fork) as pool:
+    found = [pool.submit(below, 0).result(), work()]
+""",
+    "a_pre_forking_server": """
+found = []
+children = []
+for _ in range(3):
+    reader, writer = os.pipe()
+    if os.fork() == 0:
+        for _ in range(2):
+            answer = work()
+        os.write(writer, repr(answer).encode())
+        os._exit(0)
+    os.close(writer)
+    children.append(reader)
+found = [eval(os.read(reader, 100).decode()) for reader in children]
+""",
+    "joblib": """
+import joblib
+found = joblib.Parallel(2, backend="multiprocessing")(joblib.delayed(work)(k) for k in (None, 1))
+""",
+}
+
+
+def run(script: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    """Run a script in a session of its own, so that no process of it outlives a deadlock."""
+    with subprocess.Popen(
+        [sys.executable, "-c", script], env=os.environ | environment, start_new_session=True,
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    ) as process:  # fmt: skip
+        try:
+            out, err = process.communicate(timeout=DEADLOCK)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            pytest.fail("a deadlock")
+    return subprocess.CompletedProcess([], process.returncode, out, err)
+
+
+@pytest.mark.parametrize("how", FORKS)
+@pytest.mark.parametrize("threads", ["", "1"])
+def test_a_forked_process_works_as_its_parent_does(how: str, threads: str) -> None:
+    if how == "joblib":
+        pytest.importorskip("joblib")
+    environment = {"RAYON_NUM_THREADS": threads} if threads else {}
+    done = run(f"{PARENT}{FORKS[how]}\nassert set(found) == {{expected}}, found", **environment)
+    assert done.returncode == 0, done.stderr
+
+
+def test_a_process_that_forks_before_it_works() -> None:
+    script = PARENT.replace("expected = work()", "") + FORKS["a_pre_forking_server"]
+    done = run(f"{script}\nassert set(found) == {{work()}}, found")
+    assert done.returncode == 0, done.stderr
+
+
+COUNT = """
+import crustline as cl, numpy as np
+points = np.random.default_rng(1).random((20_000, 2))
+"""
+
+
+@pytest.mark.parametrize("asked", ["RAYON_NUM_THREADS", "threads"])
+def test_threads_are_capped(asked: str) -> None:
+    threads = "1000" if asked == "threads" else "None"
+    script = (
+        f"{COUNT}delaunay = cl.Delaunay(points, threads={threads})\n"
+        "status = open('/proc/self/status').read()\n"
+        "print(int(status.split('Threads:')[1].split()[0]))"
+    )
+    if not os.path.exists("/proc/self/status"):
+        pytest.skip("threads are counted in /proc")
+    environment = {"RAYON_NUM_THREADS": "100000"} if asked == "RAYON_NUM_THREADS" else {}
+    done = run(script, **environment)
+    assert done.returncode == 0, done.stderr
+    assert int(done.stdout) <= 2 + 4 * max(4, os.cpu_count() or 1) + 64
+
+
+def test_threads_that_the_system_does_not_give_are_told_in_a_line() -> None:
+    """`--threads 3000` where memory is limited was a traceback of a panic."""
+    script = (
+        "import resource\n"
+        f"{COUNT}"
+        "size = int(open('/proc/self/statm').read().split()[0]) * resource.getpagesize()\n"
+        "resource.setrlimit(resource.RLIMIT_AS, (size + (1 << 21), -1))\n"
+        "try:\n"
+        "    cl.Delaunay(points, threads=7)\n"
+        "except (cl.InputError, MemoryError) as error:\n"
+        "    print(error)\n"
+    )
+    if not os.path.exists("/proc/self/statm"):
+        pytest.skip("memory is measured in /proc")
+    done = run(script)
+    assert done.returncode == 0, done.stderr
+    assert len(done.stdout.splitlines()) == 1, done.stdout
