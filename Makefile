@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 SOURCES := $(shell find crates python -name '*.rs' -o -name '*.pyi' -o -name 'Cargo.toml') Cargo.toml Cargo.lock pyproject.toml
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo test test-all test-rust test-python lint types format accuracy bench bench-quick bench-instructions fuzz fuzz-readers figures experiment wheel clean
+.PHONY: help build demo test test-all test-rust test-python lint types format accuracy bench bench-quick bench-instructions fuzz fuzz-readers man figures experiment wheel clean
 
 help: ## Show this list.
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-20s %s\n", $$1, $$2}'
@@ -77,6 +77,9 @@ COVERAGE := -Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 -Cllv
 fuzz: build ## Fuzz the core for a minute, and every public function with EXAMPLES=100000 calls.
 	HYPOTHESIS_PROFILE=fuzz $(BIN)/pytest tests/test_hostile.py -k any_call
 	cd crates/core/fuzz && RUSTFLAGS="$(COVERAGE)" cargo run --release --target "$$(rustc -vV | sed -n 's/host: //p')" -- -max_total_time=60 -max_len=512
+
+man: build ## Write the manual pages of the command into man/.
+	$(BIN)/python -m crustline.cli.manual man
 
 fuzz-readers: build ## Mutate files and read them, COUNT of each format (default 50,000).
 	$(BIN)/python tests/fuzz/readers.py --count $(or $(COUNT),50000) --seed $(or $(SEED),1)

@@ -210,3 +210,19 @@ def test_many_files_are_projected_in_other_processes(run: Run) -> None:
     options = ["--crs", "EPSG:4326", "--project", "auto", "-j", "2"]
     code, _, err = run("batch", "a.txt", "b.txt", "-o", "{stem}.geojson", *options)
     assert (code, "2 files done, 0 failed" in err) == (0, True)
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_completion_of_shells(run: Run, shell: str) -> None:
+    code, out, _ = run("completion", shell)
+    assert (code, "_CRUSTLINE_COMPLETE" in out) == (0, True)
+
+
+def test_manual_pages_hold_what_help_says(tmp_path: Path) -> None:
+    from crustline.cli.manual import write_pages
+
+    pages = {path.name: path.read_text(encoding="utf-8") for path in write_pages(tmp_path / "man")}
+    assert "crustline\\-reconstruct" in pages["crustline.1"]
+    text = pages["crustline-reconstruct.1"]
+    assert "\\-\\-skip\\-lines" in text
+    assert "crustline reconstruct goose.csv" in text

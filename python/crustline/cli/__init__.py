@@ -18,6 +18,7 @@ import click
 
 from crustline.cli.batch import batch
 from crustline.cli.certify import certify
+from crustline.cli.completion import completion
 from crustline.cli.info import convert, info
 from crustline.cli.medial_axis import medial_axis
 from crustline.cli.method import list_methods
@@ -110,6 +111,6 @@ def commands(context: click.Context) -> None:
 
 for _command in (
     reconstruct, batch, info, certify, smooth, plot, medial_axis, thin, sample, convert,
-    list_methods,
+    list_methods, completion,
 ):  # fmt: skip
     commands.add_command(_command)

@@ -1,0 +1,24 @@
+"""`crustline completion`: what a shell needs to complete the command's words."""
+
+from __future__ import annotations
+
+import click
+from click.shell_completion import get_completion_class
+
+SHELLS = ("bash", "zsh", "fish")
+
+
+@click.command()
+@click.argument("shell", type=click.Choice(SHELLS))
+@click.pass_context
+def completion(context: click.Context, shell: str) -> None:
+    """Print the completion of a shell.
+
+    \b
+        eval "$(crustline completion bash)"        # in ~/.bashrc, or zsh in ~/.zshrc
+        crustline completion fish | source         # in config.fish
+    """
+    made = get_completion_class(shell)
+    assert made is not None
+    root = context.find_root().command
+    click.echo(made(root, {}, "crustline", "_CRUSTLINE_COMPLETE").source())
