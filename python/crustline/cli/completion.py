@@ -12,11 +12,10 @@ SHELLS = ("bash", "zsh", "fish")
 @click.argument("shell", type=click.Choice(SHELLS))
 @click.pass_context
 def completion(context: click.Context, shell: str) -> None:
-    """Print the completion of a shell.
+    """Print the completion of a shell, for the file that it reads at its start.
 
     \b
-        eval "$(crustline completion bash)"        # in ~/.bashrc, or zsh in ~/.zshrc
-        crustline completion fish | source         # in config.fish
+        crustline completion bash
     """
     made = get_completion_class(shell)
     assert made is not None
