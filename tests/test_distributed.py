@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +18,7 @@ pytest.importorskip("distributed")
 pytest.importorskip("pyarrow")
 
 import pyarrow as pa
-from distributed import Client
+from distributed import Client, LocalCluster
 from pyarrow import parquet
 
 from crustline.distributed import Result, partition, reconstruct
@@ -392,3 +396,101 @@ def test_what_is_left_of_a_rectangle_and_its_part_are_all_of_it():
     inside = ((low <= places) & (places <= high)).all(axis=1)
     pieces = [((each[:2] <= places) & (places <= each[2:])).all(axis=1) for each in rest]
     assert np.array_equal(sum(pieces, inside.astype(int)), np.ones(1000))
+
+
+# On processes of their own.
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("workers", [1, 3])
+def test_the_number_of_workers_changes_nothing(tmp_path, workers):
+    random = np.random.default_rng(20)
+    xy = arcs(2000, random)
+    source = put(tmp_path / "in", xy)
+    with (
+        LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster,
+        Client(cluster) as opened,
+    ):
+        result = reconstruct(source, tmp_path / "out", client=opened, tile_points=100, halo=0)
+    agrees(result, xy)
+
+
+STEPS = {
+    "partition": ("partition", "scatter"),
+    "gather": ("partition", "gather"),
+    "tiles": ("tile", "decide"),
+    "rounds": ("tile", "settle"),
+    "coordinator": ("tile", "coordinate"),
+    "trace": ("stitch", "trace"),
+    "stitch": ("stitch", "join"),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("module", "step"), STEPS.values(), ids=STEPS)
+def test_a_worker_is_killed_before_its_file_has_its_name(tmp_path, module, step):
+    def die_once(module, step, sentinel):
+        import importlib
+
+        owner = importlib.import_module(f"crustline.distributed.{module}")
+        store = importlib.import_module("crustline.distributed.store")
+        original = getattr(owner, step)
+
+        def die(path):
+            os.kill(os.getpid(), signal.SIGKILL)
+
+        def dying(*arguments, **options):
+            if not sentinel.exists():
+                sentinel.touch()
+                store._digest = die
+            return original(*arguments, **options)
+
+        setattr(owner, step, dying)
+
+    xy = arcs(1000, np.random.default_rng(21))
+    source, sentinel = put(tmp_path / "in", xy), tmp_path / "killed"
+    with (
+        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
+        Client(cluster) as opened,
+    ):
+        opened.run(die_once, module, step, sentinel)
+        options = {"tile_points": 60, "halo": 0, "rounds": 1}
+        result = reconstruct(source, tmp_path / "out", client=opened, **options)
+        agrees(result, xy)
+    assert sentinel.exists()
+    assert not list((tmp_path / "out").rglob("*.part"))
+
+
+CLIENT = """
+import sys
+import crustline.distributed as distributed
+from distributed import Client
+
+def say(name, fraction):
+    print(name, flush=True)
+    if name == sys.argv[3]:
+        sys.stdin.read()
+
+if __name__ == "__main__":
+    with Client(processes=False, n_workers=1, dashboard_address=None) as client:
+        distributed.reconstruct(
+            sys.argv[1], sys.argv[2], client=client, tile_points=60, halo=0, rounds=1, progress=say
+        )
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("stage", STAGES)
+def test_the_client_is_killed_and_the_run_resumed(client, tmp_path, stage):
+    random = np.random.default_rng(22)
+    xy = arcs(600, random)
+    source = put(tmp_path / "in", xy)
+    (tmp_path / "client.py").write_text(CLIENT)
+    command = [sys.executable, tmp_path / "client.py", source, tmp_path / "out", stage]
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+    with subprocess.Popen(command, text=True, **pipes) as running:
+        assert any(line.strip() == stage for line in running.stdout)
+        running.kill()
+    result = reconstruct(source, tmp_path / "out", client=client, tile_points=60, halo=0, rounds=1)
+    agrees(result, xy)
+    assert not list((tmp_path / "out").rglob("*.part"))

@@ -448,6 +448,19 @@ fn materialized(joined: &Joined, runs: &[Vec<u32>]) -> (Vec<u32>, bool) {
     (rows, joined.closed)
 }
 
+/// Edges of no method, among them rings that run to and fro on a line.
+fn any_edges(points: usize, random: &mut Random) -> Edges {
+    let mut edges = BTreeSet::new();
+    let few = points.min(2 + random.below(6));
+    for _ in 0..random.below(2 * points) {
+        let (i, j) = (random.below(few) as u32, random.below(few) as u32);
+        if i != j {
+            edges.insert([i.min(j), i.max(j)]);
+        }
+    }
+    edges.into_iter().collect()
+}
+
 #[test]
 fn curves_across_tiles_are_those_of_the_whole() {
     let mut random = Random(16);
@@ -455,10 +468,11 @@ fn curves_across_tiles_are_those_of_the_whole() {
     for _ in 0..3000 {
         let world = World::new(points(&mut random), &mut random);
         let delaunay = Delaunay::new(&world.points, &progress).unwrap();
-        let edges = match random.below(4) {
+        let edges = match random.below(5) {
             0 => methods::crust(&delaunay, &progress).unwrap(),
             1 => methods::beta_skeleton(&delaunay, 1.5, methods::Kind::Circle, &progress).unwrap(),
             2 => methods::gabriel(&delaunay, &progress).unwrap(),
+            3 => any_edges(world.points.len(), &mut random),
             _ => methods::minimum_spanning_tree(&delaunay, &progress).unwrap(),
         };
         let curves = trace(&world.points, &edges, &progress).unwrap();
