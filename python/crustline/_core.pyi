@@ -16,6 +16,7 @@ __all__ = [
     "is_canonical",
     "join_chains",
     "medial_axis",
+    "ridge",
     "select",
     "select_by_group",
     "shells",

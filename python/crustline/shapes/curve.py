@@ -132,7 +132,7 @@ class SmoothCurve:
 
     def on_loops(self, loop: IntArray, u: FloatArray) -> Three:
         """Return the same at places u, modulo 1, of loops by their number; all of shape (k,)."""
-        u = u % 1.0
+        u, loop = np.atleast_1d(u) % 1.0, np.atleast_1d(loop)
         out = np.empty((3, len(u), 2))
         order = np.argsort(loop, kind="stable")
         ends = np.searchsorted(loop[order], np.arange(len(self.loops) + 1))

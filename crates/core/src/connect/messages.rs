@@ -4,7 +4,7 @@
 //! (J. Pearl, "Probabilistic Reasoning in Intelligent Systems", 1988). All are sent at once and damped by half.
 
 use super::candidates::{Candidates, GRAIN, each};
-use super::constants::{CONVERGED, MOST_PAIRED, SWEEPS};
+use super::constants::{CONVERGED, SWEEPS};
 use super::costs::Costs;
 use super::geometry::{Spacing, Turns};
 use crate::error::Result;

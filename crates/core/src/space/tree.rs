@@ -52,11 +52,13 @@ pub struct Tree {
 
 impl Tree {
     /// A tree of `segments`, joined where they are in line. Queries are within `bounds`.
+    #[must_use]
     pub fn new(segments: &[Segment], bounds: Bounds) -> Self {
         Self::of(&joined(segments, &order(segments, bounds)), GAIN)
     }
 
     /// A tree of the segments between `ends`, perhaps points, as they are: distances are exact but for rounding.
+    #[must_use]
     pub fn exact(ends: &[[Point; 2]]) -> Self {
         let bounds = Bounds::of(ends.as_flattened());
         let segments: Vec<Segment> = ends.iter().map(|&ends| Segment::new(ends, 0.0)).collect();
@@ -71,6 +73,7 @@ impl Tree {
     }
 
     /// The distance from each place to the nearest segment, infinite if there is none; places as for `nearest`.
+    #[must_use]
     pub fn distances(&self, places: &[Point]) -> Vec<f64> {
         // Squares of distances beyond 1e154 are infinite: one segment is as near as another then.
         let far = |(&p, (segment, distance)): (&Point, (u32, f64))| match self
@@ -87,6 +90,7 @@ impl Tree {
     }
 
     /// The distance from `p` to a segment, infinite if there is none.
+    #[must_use]
     pub fn distance_to(&self, segment: u32, p: Point) -> f64 {
         self.lines.get(segment as usize).map_or(f64::INFINITY, |line| line.square(p).sqrt())
     }
@@ -95,6 +99,7 @@ impl Tree {
     ///
     /// Places that follow each other should be near each other: a run of them goes down to boxes of about its size together,
     /// and each starts with the answer of the one before it.
+    #[must_use]
     pub fn nearest(&self, places: &[Point]) -> Vec<(u32, f64)> {
         if self.lines.is_empty() {
             return vec![(0, f64::INFINITY); places.len()];
