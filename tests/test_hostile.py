@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import faulthandler
 from collections.abc import Callable, Iterator
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -51,7 +52,8 @@ def test_every_function_answers_what_fits() -> None:
                 answered.add(name)
                 break
     needs_one_of_two = {"Spline.sample"}
-    assert answered == set(hostile.FUNCTIONS) - needs_one_of_two
+    needs_pyvista = set() if find_spec("pyvista") else {"Curves.to_pyvista"}
+    assert answered - needs_pyvista == set(hostile.FUNCTIONS) - needs_one_of_two - needs_pyvista
 
 
 itself: list[Any] = []

@@ -54,8 +54,10 @@ impl Factors<'_> {
     fn write(&self, k: usize, sent: &[f32], active: &[AtomicBool], mail: &mut Mail) {
         let mut work = Work::new();
         mail.clear();
-        for v in k * GRAIN..((k + 1) * GRAIN).min(self.candidates.vertices()) {
-            if active[v].swap(false, Relaxed) {
+        let first = k * GRAIN;
+        let last = (first + GRAIN).min(self.candidates.vertices());
+        for (v, active) in (first..last).zip(&active[first..last]) {
+            if active.swap(false, Relaxed) {
                 self.send(v, sent, &mut work);
                 let numbers = self.candidates.from(v).map(|e| e as u32);
                 mail.extend(numbers.zip(work.messages.iter().copied()));
@@ -201,7 +203,7 @@ impl Work {
         let both = self.both(pair);
         self.messages.clear();
         for k in 0..self.incoming.len() {
-            let on = if k < self.count { end.min(seconds[k]) } else { end };
+            let on = seconds[..self.count].get(k).map_or(end, |&second| end.min(second));
             let pair = if both.contains(&k) { self.best_without(k) } else { pair.value };
             self.messages.push(on - alone.min(end + single.without(k)).min(pair));
         }
