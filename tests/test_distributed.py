@@ -21,6 +21,7 @@ import pyarrow as pa
 from distributed import Client, LocalCluster
 from pyarrow import parquet
 
+from crustline.cli import main
 from crustline.distributed import Result, partition, reconstruct
 from crustline.distributed.cuts import cut
 from crustline.distributed.sight import without
@@ -396,6 +397,52 @@ def test_what_is_left_of_a_rectangle_and_its_part_are_all_of_it():
     inside = ((low <= places) & (places <= high)).all(axis=1)
     pieces = [((each[:2] <= places) & (places <= each[2:])).all(axis=1) for each in rest]
     assert np.array_equal(sum(pieces, inside.astype(int)), np.ones(1000))
+
+
+# The command.
+
+
+@pytest.fixture
+def command(capsys):
+    """Run the command; return its exit code, and what it wrote to either stream."""
+
+    def run(*arguments):
+        with pytest.raises(SystemExit) as ended:
+            main(["reconstruct", *map(str, arguments)])
+        captured = capsys.readouterr()
+        return ended.value.code or 0, captured.out, captured.err
+
+    return run
+
+
+def test_the_command_writes_a_folder(client, tmp_path, command):
+    xy = coast(300, np.random.default_rng(23))
+    source, out = put(tmp_path / "in", xy), tmp_path / "out"
+    options = ("--distributed", "--scheduler", client.scheduler.address, "--tile-points", 90)
+    code, told, fault = command(source, "-o", out, *options, "--json")
+    assert code == 0, fault
+    summary = json.loads(told)
+    assert (summary["method"], summary["rows"], summary["outputs"]) == ("crust", 300, [str(out)])
+    agrees(Result(out), xy)
+    assert "resume is off" in command(source, "-o", out, *options)[2]
+    assert command(source, "-o", out, *options, "--resume")[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (["--resume"], "--resume is for --distributed: add that"),
+        (["--distributed"], "give one with -o FOLDER"),
+        (["--distributed", "-o", "-"], "give one with -o FOLDER"),
+        (["--distributed", "-o", "out", "--by", "z"], "--by is not for --distributed"),
+        (["--distributed", "-o", "out", "--method", "gabriel"], "gabriel cannot be decided"),
+        (["--distributed", "-o", "out", "--memory", "lots"], "give bytes, or a size such as"),
+    ],
+)
+def test_what_the_command_refuses_is_refused_in_a_sentence(tmp_path, command, options, sentence):
+    code, told, fault = command(tmp_path / "points.parquet", *options)
+    assert (code, told, fault.count("\n")) == (2, "", 1)
+    assert sentence in fault
 
 
 # On processes of their own.

@@ -49,7 +49,7 @@ def method_options(command: Command) -> Command:
         project: str | None,
         **rest: Any,
     ) -> None:
-        command(method=_method(method, beta, settings, project), **rest)
+        command(method=as_method(method, beta, settings, project), **rest)
 
     return run
 
@@ -60,9 +60,10 @@ def _matching(context: click.Context, option: click.Parameter, start: str) -> li
     return [name for name in METHODS if name.startswith(start)]
 
 
-def _method(
+def as_method(
     name: str, beta: float | None, settings: tuple[str, ...], project: str | None
 ) -> Method:
+    """Return the method of a name with its parameters, or refuse what it does not have."""
     from crustline.methods import METHODS, check_parameters
     from crustline.projection import projected
 

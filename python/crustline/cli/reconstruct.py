@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from crustline.cli.distributed import distributed_options
 from crustline.cli.method import Method, method_options
 from crustline.cli.output import Output, counted, output_options
 from crustline.cli.progress import progress_bar
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 
 
 @click.command()
+@distributed_options
 @source_options
 @output_options("write_curves")
 @click.option("--by", metavar="COLUMN", help="Connect only points of equal value in a column.")
