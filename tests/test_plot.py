@@ -27,8 +27,10 @@ from crustline.delaunay import Delaunay
 from crustline.errors import InputError, MissingExtraError
 from crustline.medial_axis import MedialAxis, medial_axis
 from crustline.methods import crust
+from crustline.path import Path as Path_
 from crustline.plot.axes import CHUNK
 from crustline.plot.certificate import MARKERS
+from crustline.plot.crowd import one_per_spot, thinned
 from crustline.plot.picture import SUFFIXES
 from crustline.points import Points
 from crustline.reconstruction import Reconstruction
@@ -235,8 +237,77 @@ def test_indices_are_rows_beside_their_points() -> None:
     assert [(text.get_text(), list(text.xy)) for text in ax.texts] == [
         (str(row), place) for row, place in enumerate(SQUARE.tolist())
     ]
-    with pytest.raises(InputError, match="labels of 5001 points would hide each other"):
-        plot.plot_indices(np.zeros((5001, 2)))
+
+
+def test_of_many_indices_only_those_with_room_are_written() -> None:
+    """Thousands of labels took half a minute, and were a smear."""
+    points = np.random.default_rng(0).random((5000, 2))
+    ax: Any = plot.plot_indices(points)
+    *labels, note = ax.texts
+    assert 300 < len(labels) <= 23 * 51
+    places = np.array([label.xy for label in labels]) * (22, 50)
+    apart = np.abs(places[:, None] - places).max(axis=2) + 9 * np.eye(len(places))
+    assert apart.min() > 0.99
+    assert note.get_text() == f"{len(labels):,} of 5,000 rows are written"
+    rows = [int(label.get_text()) for label in labels]
+    assert np.array_equal([label.xy for label in labels], points[rows])
+
+
+def test_feature_sizes_are_above_the_black_points() -> None:
+    ax: Any = plot.plot_local_feature_size(
+        SQUARE, [1.0, 2.0, 3.0, math.nan], plot.plot_points(SQUARE)
+    )
+    assert min(dots.get_zorder() for dots in ax.collections) > ax.lines[0].get_zorder()
+
+
+def test_coordinates_far_from_the_origin_are_written_in_full() -> None:
+    ax: Any = plot.plot_points(SQUARE + np.array([500_000, 6_000_000]))
+    ax.figure.canvas.draw()
+    assert ax.yaxis.get_offset_text().get_text() == ""
+    assert any(text.get_text().startswith("60000") for text in ax.get_yticklabels())
+
+
+# --- Crowds -------------------------------------------------------------------------------------
+
+
+def wave(n: int) -> Floats:
+    x = np.linspace(0, 10, n)
+    return np.column_stack([x, np.sin(x)])
+
+
+def test_a_crowd_is_drawn_once_on_each_spot() -> None:
+    points = wave(1_000_000)
+    ax: Any = plot.plot_points(points)
+    dots = np.column_stack(ax.lines[0].get_data())
+    assert len(dots) < 40_000
+    path = thinned(Path_.through(points))
+    assert len(path) < 40_000
+    assert np.array_equal(path.vertices[[0, -1]], points[[0, -1]])
+    spot = 10 / 2**14
+    for near in (dots, path.vertices):
+        rows = np.searchsorted(near[:, 0], points[:, 0]).clip(max=len(near) - 1)
+        assert np.abs(near[rows] - points).max() < 2 * spot
+
+
+def test_a_crowd_of_segments_keeps_one_of_a_kind() -> None:
+    grid = np.random.default_rng(1).integers(0, 100, (200_000, 2, 2)).astype(float)
+    path = thinned(Path_.through_all(grid.reshape(-1, 2), np.arange(0, 400_000, 2)))
+    kinds = {tuple(sorted(map(tuple, pair))) for pair in grid.tolist()}
+    drawn = path.vertices.reshape(-1, 2, 2).tolist()
+    assert {tuple(sorted(map(tuple, pair))) for pair in drawn} == kinds
+    assert len(drawn) == len(kinds)
+
+
+def test_no_crowd_is_drawn_as_it_is() -> None:
+    path = Path_.through(wave(9000), closed=True)
+    assert thinned(path) is path
+    assert np.array_equal(one_per_spot(np.zeros((9, 2))), np.arange(9))
+
+
+def test_the_least_feature_size_of_a_spot_is_shown() -> None:
+    points, sizes = np.repeat(wave(1000), 200, axis=0), np.tile(np.arange(200.0, 0, -1), 1000)
+    ax: Any = plot.plot_local_feature_size(points, sizes)
+    assert set(ax.collections[1].get_array()) == {1.0}
 
 
 @pytest.mark.parametrize("suffix", SUFFIXES)

@@ -10,6 +10,7 @@ import numpy as np
 from crustline.arrays import FloatArray
 from crustline.errors import missing_extra
 from crustline.path import CLOSE, LINE, MOVE, Path
+from crustline.plot.crowd import thinned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -58,6 +59,8 @@ def _new_axes(xy: FloatArray) -> Axes:
     ax.spines[["left", "bottom"]].set_color(GRAY)
     ax.tick_params(color=GRAY, labelcolor="#555555", labelsize=7, length=2)
     ax.locator_params(nbins=6)
+    # Coordinates as they are, such as 500001.5: no "+5e5" to be added in the head.
+    ax.ticklabel_format(useOffset=False, scilimits=(-4, 9))
     for axis in (ax.xaxis, ax.yaxis):
         axis.get_offset_text().set_fontsize(7)
     return ax
@@ -92,6 +95,7 @@ def stroke(
     from matplotlib.collections import PathCollection
     from matplotlib.path import Path as Outline
 
+    path = thinned(path)
     # A closing would lead to where its chunk starts; its vertex is the start of the ring.
     codes = np.where(path.codes == CLOSE, LINE, path.codes).astype(np.uint8)
     outlines = []

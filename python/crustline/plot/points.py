@@ -7,21 +7,23 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crustline.arrays import FloatArray, as_points
-from crustline.errors import InputError
+from crustline.arrays import FloatArray, IntArray, as_points
 from crustline.plot.axes import (
     BLACK,
     GRAY,
     axes,
     dot_size,
 )
+from crustline.plot.crowd import one_per_spot
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-#: More labels than this hide each other, and take minutes.
-MOST_LABELS = 5_000
+#: So many labels are all written, though some may touch.
+FEW_LABELS = 250
+#: Labels that fit beside each other, and above each other, along the longer side.
+LABEL_CELLS = (22, 50)
 #: From this many points on, lines are drawn above them.
 CROWD = 20_000
 
@@ -58,7 +60,7 @@ def plot_points(
     MissingExtraError
         If matplotlib is not installed.
     InputError
-        If the points are not (n, 2) or not finite, or too many to be labeled.
+        If the points are not (n, 2) or not finite.
 
     Examples
     --------
@@ -71,7 +73,8 @@ def plot_points(
     diameter = dot_size(len(xy)) if size is None else size
     # A crowd of dots would hide the curve through them.
     order = 4 if len(xy) < CROWD else 1.5
-    ax.plot(*xy.T, "o", color=color, markersize=diameter, markeredgewidth=0, zorder=order)
+    drawn = xy[one_per_spot(xy)]
+    ax.plot(*drawn.T, "o", color=color, markersize=diameter, markeredgewidth=0, zorder=order)
     return plot_indices(xy, ax) if indices else ax
 
 
@@ -81,7 +84,8 @@ def plot_indices(points: ArrayLike, ax: Axes | None = None, *, color: str = BLAC
     Parameters
     ----------
     points : array_like of float, shape (n, 2)
-        Coordinates; at most 5000.
+        Coordinates. Of more than 250 points only those get a label that have room for it; how many
+        is said in the corner.
     ax : Axes, optional
         Where to write; new Axes if not given.
     color : str
@@ -91,28 +95,42 @@ def plot_indices(points: ArrayLike, ax: Axes | None = None, *, color: str = BLAC
     -------
     ax : Axes
 
-    Raises
-    ------
-    InputError
-        If there are more than 5000 points.
-
     Examples
     --------
     >>> [text.get_text() for text in plot_indices([(0, 0), (1, 0)]).texts]
     ['0', '1']
     """
     xy = as_points(points)
-    if len(xy) > MOST_LABELS:
-        raise InputError(
-            f"the labels of {len(xy)} points would hide each other: "
-            f"label at most {MOST_LABELS}, for instance a part of them"
-        )
     ax = axes(ax, xy)
-    for row, place in enumerate(xy):
+    rows = _legible(xy)
+    for row in rows.tolist():
         ax.annotate(
-            str(row), place, (2.5, 2.5), textcoords="offset points", size=6, color=color, zorder=6
+            str(row), xy[row], (2.5, 2.5), textcoords="offset points", size=6, color=color, zorder=6
         )
+    if len(rows) < len(xy):
+        note = f"{len(rows):,} of {len(xy):,} rows are written"
+        ax.text(1, 1, note, transform=ax.transAxes, size=6, color=GRAY, ha="right", va="bottom")
     return ax
+
+
+def _legible(xy: FloatArray) -> IntArray:
+    """Return the rows whose labels have room: all of a few, and of many those clear of others."""
+    if len(xy) <= FEW_LABELS:
+        return np.arange(len(xy))
+    low = xy.min(axis=0)
+    extent = float((xy.max(axis=0) - low).max()) or 1.0
+    places = (xy - low) * (np.array(LABEL_CELLS) / extent)  # a label is 1 wide and 1 high
+    cells = places.astype(np.int64)
+    taken: dict[tuple[int, int], FloatArray] = {}
+    rows = []
+    for row in np.sort(np.unique(cells, axis=0, return_index=True)[1]).tolist():
+        column, line = cells[row].tolist()
+        around = [(column + i, line + j) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+        near = [taken[cell] for cell in around if cell in taken]
+        if all(np.abs(places[row] - other).max() >= 1 for other in near):
+            taken[column, line] = places[row]
+            rows.append(row)
+    return np.array(rows)
 
 
 def plot_local_feature_size(points: ArrayLike, sizes: ArrayLike, ax: Axes | None = None) -> Axes:
@@ -139,15 +157,19 @@ def plot_local_feature_size(points: ArrayLike, sizes: ArrayLike, ax: Axes | None
     ax = axes(ax, xy)
     from matplotlib.colors import LogNorm
 
+    diameter = 1.6 * dot_size(len(xy))
+    drawn = one_per_spot(xy, by=lfs)  # the least decides what is guaranteed
+    xy, lfs = xy[drawn], lfs[drawn]
     known = np.isfinite(lfs) & (lfs > 0)
-    area = (1.6 * dot_size(len(xy))) ** 2
+    area = diameter**2
     x, y = xy.T
-    ax.scatter(x[~known], y[~known], area, GRAY, linewidths=0, zorder=3)
+    # Above the points: their black would hide the colors.
+    ax.scatter(x[~known], y[~known], area, GRAY, linewidths=0, zorder=4.5)
     if not known.any():
         return ax
     scale = LogNorm(*_open_range(lfs[known]))
     dots = ax.scatter(
-        x[known], y[known], area, lfs[known], norm=scale, cmap="viridis", linewidths=0, zorder=3
+        x[known], y[known], area, lfs[known], norm=scale, cmap="viridis", linewidths=0, zorder=4.5
     )
     figure: Any = ax.get_figure(root=True)
     bar = figure.colorbar(dots, ax=ax, shrink=0.7)
