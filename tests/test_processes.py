@@ -1,4 +1,4 @@
-"""Processes: forked ones work as their parents do; threads have an end."""
+"""Processes: forked ones work as their parents do; threads and memory have an end."""
 
 from __future__ import annotations
 
@@ -67,12 +67,16 @@ found = joblib.Parallel(2, backend="multiprocessing")(joblib.delayed(work)(k) fo
 }
 
 
-def run(script: str, **environment: str) -> subprocess.CompletedProcess[str]:
+def run(script: str, *arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
     """Run a script in a session of its own, so that no process of it outlives a deadlock."""
     with subprocess.Popen(
-        [sys.executable, "-c", script], env=os.environ | environment, start_new_session=True,
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-    ) as process:  # fmt: skip
+        [sys.executable, "-c", script, *arguments],
+        env=os.environ | environment,
+        start_new_session=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
         try:
             out, err = process.communicate(timeout=DEADLOCK)
         except subprocess.TimeoutExpired:
@@ -136,3 +140,48 @@ def test_threads_that_the_system_does_not_give_are_told_in_a_line() -> None:
     done = run(script)
     assert done.returncode == 0, done.stderr
     assert len(done.stdout.splitlines()) == 1, done.stdout
+
+
+# The room left is just above and just below what a call needs, and far from either.
+MEMORY = """
+import resource, sys
+import numpy as np
+import crustline as cl
+points = np.random.default_rng(1).random((200_000, 2))
+few = points[:20_000]
+cl.certify(few)
+cl.medial_axis(few)
+delaunay = cl.Delaunay(points)
+edges = cl.crust(delaunay)
+calls = {
+    "crust": lambda: cl.crust(points),
+    "medial_axis": lambda: cl.medial_axis(delaunay, edges),
+    "certify": lambda: cl.certify(delaunay, edges),
+    "trace": lambda: cl.trace(delaunay, edges),
+}
+size = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (size + (int(sys.argv[1]) << 20), -1))
+for name, call in calls.items():
+    try:
+        call()
+        print(name, "done")
+    except MemoryError as error:
+        print(name, error)
+print(len(cl.crust(few[:2_000])))
+"""
+
+
+@pytest.mark.parametrize("room", [1, 30, 60, 90, 400])
+def test_memory_that_is_not_there_is_an_error_and_not_the_end_of_the_process(room: int) -> None:
+    """Three million points under `ulimit -v 400000` aborted the interpreter."""
+    if not os.path.exists("/proc/self/statm"):
+        pytest.skip("memory is measured in /proc")
+    done = run(MEMORY, str(room))
+    assert done.returncode == 0, done.stderr
+    *told, last = done.stdout.splitlines()
+    assert int(last) > 1000
+    assert len(told) == 4
+    if room == 1:
+        assert all("MB of memory are needed" in line or "allocate" in line for line in told)
+    if room == 400:
+        assert all(line.endswith(" done") for line in told)

@@ -2,8 +2,12 @@
 
 use crate::delaunay::{Delaunay, Edge};
 use crate::error::Result;
+use crate::memory;
 use crate::parts::{GRAIN, each, in_parts, split};
 use crate::progress::{Progress, Stage};
+
+/// Memory for each vertex at the peak, if up to three edges each are kept and sorted.
+const BYTES: usize = 64;
 
 /// Edges as input rows: i < j in each, sorted, unique.
 pub type Edges = Vec<[u32; 2]>;
@@ -22,6 +26,7 @@ pub fn select<S>(
 ) -> Result<Edges> {
     let vertices = delaunay.points().len();
     progress.enter(Stage::Select, vertices)?;
+    memory::check(vertices, BYTES)?;
     let parts = in_parts(vertices, GRAIN, progress, |vertices| {
         let mut memory = scratch();
         let mut kept = Vec::with_capacity(vertices.len());

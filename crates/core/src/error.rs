@@ -26,6 +26,11 @@ pub enum Error {
         /// The sentence that says which, and what it may be.
         message: String,
     },
+    /// There is less memory than the work needs.
+    Memory {
+        /// How many bytes it needs at one time.
+        needed: usize,
+    },
     /// The caller asked to stop.
     Cancelled,
 }
@@ -44,6 +49,11 @@ impl fmt::Display for Error {
                 "row {row}: the coordinate {value:e} is too small beside the largest, {largest:e}, to be scaled exactly: set it to 0 or remove the far points"
             ),
             Self::Argument { message } => f.write_str(message),
+            Self::Memory { needed } => write!(
+                f,
+                "{:.1} MB of memory are needed at one time and not to be had: free some, or split the points into tiles",
+                *needed as f64 / 1e6
+            ),
             Self::Cancelled => f.write_str("the call was cancelled"),
         }
     }

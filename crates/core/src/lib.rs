@@ -18,6 +18,7 @@ mod forest;
 pub mod groups;
 pub mod interpolant;
 pub mod medial_axis;
+pub mod memory;
 pub mod methods;
 pub mod nesting;
 mod parts;

@@ -4,10 +4,14 @@ use crate::adjacency::Incidence;
 use crate::edges::Edges;
 use crate::error::Result;
 use crate::exact::predicates::orientation;
+use crate::memory;
 use crate::point::{Point, lexicographic};
 use crate::progress::{Progress, Stage};
 use std::cmp::Ordering::{Equal, Greater, Less};
 use std::collections::HashMap;
+
+/// Memory for each row and each edge at the peak, about.
+const BYTES: usize = 40;
 
 /// Curves as runs of rows, one after another.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -48,6 +52,7 @@ pub fn trace_between(
     progress: &Progress,
 ) -> Result<(Curves, Vec<Vec<u32>>)> {
     progress.enter(Stage::Trace, edges.len())?;
+    memory::check(points.len() + edges.len(), BYTES)?;
     let graph = Incidence::new(edges, points.len());
     let mut walk = Walk { graph: &graph, cut, used: vec![false; edges.len()], path: vec![] };
     let (mut curves, mut runs) = (Curves { offsets: vec![0], ..Curves::default() }, Vec::new());

@@ -1,8 +1,9 @@
 //! Between NumPy arrays and the slices of the core.
 
-use crate::errors::input_error;
+use crate::errors::{exception, input_error};
 use crate::threads::aside;
 use crustline_core::Point;
+use crustline_core::memory::check;
 use numpy::{Element, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -46,11 +47,17 @@ pub fn first_not_finite(
     }))
 }
 
+/// Is there memory for so many numbers? NumPy's own failure would be a panic here.
+fn room<T>(py: Python<'_>, count: usize) -> PyResult<()> {
+    check(count, size_of::<T>()).map_err(|error| exception(py, &error))
+}
+
 /// A fresh read-only array of integers, `width` to a row.
 pub fn integer_rows<'py, const N: usize>(
     py: Python<'py>,
     rows: &[[u32; N]],
 ) -> PyResult<Bound<'py, PyArray2<i64>>> {
+    room::<i64>(py, N * rows.len())?;
     let array = PyArray2::zeros(py, [rows.len(), N], false);
     fill(&array, rows.as_flattened(), |&x| i64::from(x))
 }

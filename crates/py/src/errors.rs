@@ -1,7 +1,7 @@
 //! The one place where errors of the core become Python exceptions.
 
 use crustline_core::Error;
-use pyo3::exceptions::PyKeyboardInterrupt;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyMemoryError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
@@ -10,6 +10,7 @@ use pyo3::types::PyType;
 pub fn exception(py: Python<'_>, error: &Error) -> PyErr {
     match error {
         Error::Cancelled => PyKeyboardInterrupt::new_err(()),
+        Error::Memory { .. } => PyMemoryError::new_err(error.to_string()),
         _ => input_error(py, error.to_string()),
     }
 }

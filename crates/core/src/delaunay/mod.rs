@@ -11,6 +11,7 @@ mod triangles;
 mod zip;
 
 use crate::error::{Error, Result};
+use crate::memory;
 use crate::point::Point;
 use crate::progress::{Progress, Stage};
 use crate::space::order::{Order, order};
@@ -21,6 +22,9 @@ pub use stars::{Star, Stars};
 
 /// The most points that one triangulation can hold: half-edges are numbered in 32 bits.
 pub const MOST_POINTS: usize = (u32::MAX as usize - 1) / SLOTS;
+
+/// Memory for each point at the peak, about.
+const BYTES: usize = 144;
 
 /// A Delaunay triangulation.
 ///
@@ -63,6 +67,7 @@ impl Delaunay {
         if points.len() > MOST_POINTS {
             return Err(Error::TooManyPoints { count: points.len(), limit: MOST_POINTS });
         }
+        memory::check(points.len(), BYTES)?;
         let sorted = order(points, progress)?;
         let (stars, hull) = stars(&sorted, leaf::MOST, progress)?;
         let Order { points: vertices, rows, duplicates, scale, .. } = sorted;

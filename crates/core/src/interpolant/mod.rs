@@ -14,6 +14,7 @@ use crate::adjacency::Adjacency;
 use crate::delaunay::Delaunay;
 use crate::edges::Edges;
 use crate::error::Result;
+use crate::memory;
 use crate::parts::{GRAIN, in_parts};
 use crate::point::Point;
 use crate::progress::{Progress, Stage};
@@ -22,6 +23,9 @@ use axis::axis;
 pub use bend::Bend;
 use bend::bends;
 use stencil::{Scale, stencil};
+
+/// Memory for each vertex at the peak, about.
+const BYTES: usize = 288;
 
 /// The smooth interpolant of edges, its medial axis, and the local feature size at the vertices.
 #[derive(Debug)]
@@ -39,6 +43,7 @@ impl Interpolant {
     /// # Errors
     /// A cancelled `progress`.
     pub fn new(delaunay: &Delaunay, edges: &Edges, progress: &Progress) -> Result<Self> {
+        memory::check(delaunay.points().len(), BYTES)?;
         let curve = Adjacency::new(delaunay, edges);
         let scale = Scale::of(delaunay.points());
         let stencil = stencil(delaunay, &curve, &scale, progress)?;

@@ -11,6 +11,7 @@ use crate::exact::circumcenter::{Center, circumcenter};
 use crate::exact::filter::ROUNDING;
 use crate::exact::predicates::in_circle;
 use crate::forest::Forest;
+use crate::memory;
 use crate::parts::split;
 use crate::point::{Point, length, lexicographic, sub};
 use crate::progress::{Progress, Stage};
@@ -48,6 +49,7 @@ pub struct MedialAxis {
 /// # Errors
 /// A cancelled `progress`.
 pub fn medial_axis(delaunay: &Delaunay, edges: &Edges, progress: &Progress) -> Result<MedialAxis> {
+    memory::check(delaunay.points().len(), BYTES)?;
     let curve = Adjacency::new(delaunay, edges);
     let triangles = delaunay.triangles();
     if triangles.is_empty() {
@@ -66,6 +68,9 @@ pub fn medial_axis(delaunay: &Delaunay, edges: &Edges, progress: &Progress) -> R
     progress.advance(1)?;
     Ok(collect(&mesh, &inside, &centers))
 }
+
+/// Memory for each vertex at the peak, about.
+const BYTES: usize = 432;
 
 /// Steps of about the same time, which progress counts.
 const STEPS: usize = 5;

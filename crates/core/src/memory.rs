@@ -1,0 +1,30 @@
+//! Memory asked for before long work starts, because there is no way back from an allocation that fails within.
+
+use crate::error::{Error, Result};
+use std::hint::black_box;
+
+/// Is there memory for `bytes_each` of `count` items, all at one time?
+///
+/// # Errors
+/// How much is needed, if there is not.
+pub fn check(count: usize, bytes_each: usize) -> Result<()> {
+    let bytes = count.saturating_mul(bytes_each);
+    // Threads and what lies between allocations take some, too.
+    let needed = bytes.saturating_add(bytes / 8);
+    let mut room = Vec::<u8>::new();
+    // Unless it is looked at, the compiler leaves such an allocation out.
+    black_box(&mut room).try_reserve_exact(needed).map_err(|_| Error::Memory { needed })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_than_there_can_be_is_refused() {
+        assert_eq!(check(1000, 16), Ok(()));
+        let needed = (1 << 62) + (1 << 59);
+        assert_eq!(check(1 << 31, 1 << 31), Err(Error::Memory { needed }));
+        assert_eq!(check(usize::MAX, 2), Err(Error::Memory { needed: usize::MAX }));
+    }
+}
