@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import ast
+import importlib
 import inspect
+import subprocess
+import sys
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -68,3 +72,55 @@ def test_every_public_name_is_there_once() -> None:
     assert len(set(cl.__all__)) == len(cl.__all__)
     for name in cl.__all__:
         assert getattr(cl, name) is not None
+
+
+# Importing
+
+
+def loaded_by(code: str) -> set[str]:
+    """The modules that a process has loaded after some code, but for those of NumPy alone."""
+    show = (
+        f"import sys, numpy; before = set(sys.modules); {code}; print(*sys.modules.keys()-before)"
+    )
+    run = subprocess.run([sys.executable, "-c", show], capture_output=True, text=True, check=True)
+    return set(run.stdout.split())
+
+
+def test_importing_loads_nothing_but_the_package() -> None:
+    assert loaded_by("import crustline") == {"crustline"}
+
+
+def test_reconstructing_loads_no_format_shape_or_foreign_package() -> None:
+    found = loaded_by("import crustline; crustline.reconstruct([(0, 0), (1, 1), (1, 0), (0, 1)])")
+    own = {name.split(".")[1] for name in found if name.startswith("crustline.")}
+    assert not own & {"formats", "shapes", "smooth", "plot", "cli"}
+    tops = {name.partition(".")[0] for name in found}
+    assert tops <= {"crustline", "numpy", *sys.stdlib_module_names}
+    assert len(found) < 100
+
+
+def test_functions_win_over_the_modules_of_their_names() -> None:
+    names = ("certify", "denoise", "medial_axis", "merge", "smooth")
+    for name in names:
+        importlib.import_module(f"crustline.{name}")
+        assert inspect.isfunction(getattr(cl, name))
+    code = "import crustline.smooth, crustline as cl; assert callable(cl.smooth)"
+    assert loaded_by(code)
+
+
+def test_type_checkers_are_told_where_names_are() -> None:
+    tree = ast.parse(inspect.getsource(cl))
+    block = next(node for node in tree.body if isinstance(node, ast.If))
+    told = {
+        alias.name: node.module
+        for node in block.body
+        if isinstance(node, ast.ImportFrom) and node.module != "crustline"
+        for alias in node.names
+    }
+    assert told == cl._HOMES
+    assert sorted([*told, "shapes", "theory"]) == sorted(cl.__all__)
+
+
+def test_a_name_that_is_not_there_is_an_attribute_error() -> None:
+    with pytest.raises(AttributeError, match="no attribute 'cruts'"):
+        _ = cl.cruts  # type: ignore[attr-defined]
