@@ -51,6 +51,7 @@ class Delaunay:
 
 def connect(
     delaunay: Delaunay,
+    hints: Any = None,
     threads: int | None = None,
     progress: _Progress | None = None,
 ) -> _Integers: ...

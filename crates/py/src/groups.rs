@@ -3,7 +3,7 @@
 use crate::arrays::{integer_rows, points};
 use crate::call::Call;
 use crate::errors::input_error;
-use crustline_core::connect::{CONSTANTS, connect};
+use crustline_core::connect::{CONSTANTS, Hints, connect};
 use crustline_core::{groups, methods};
 use numpy::{PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -36,7 +36,7 @@ pub fn select_by_group<'py>(
     let call = Call { size: points.len(), threads, callback: progress };
     let edges = call.run(py, |progress| {
         groups::select_by_group(points, &rows, &ends, progress, |delaunay, progress| match method {
-            "connect" => connect(delaunay, &CONSTANTS, progress),
+            "connect" => connect(delaunay, &CONSTANTS, &Hints::default(), progress),
             _ => methods::select(delaunay, method, &parameters, progress),
         })
     })?;

@@ -71,6 +71,7 @@ def by_group(
     """
     carried, how = points_and_how(points)
     as_method(method, parameters)
+    _refuse_rows(method, parameters)
     threads = how[0] if threads is None else as_threads(threads)
     rows, ends = _split(groups, len(carried))
     at_once = _Groups(carried.xy, rows, ends, (threads, how[1] if progress is None else progress))
@@ -84,6 +85,12 @@ def by_group(
         edges = as_edges(method(carried.select(group), **parameters), len(group))
         parts.append(group[edges])
     return as_edges(np.concatenate(parts), len(carried))
+
+
+def _refuse_rows(method: Callable[..., IntArray], parameters: dict[str, Any]) -> None:
+    """Refuse hints that are rows: each group has rows of its own."""
+    for name in {"keep", "forbid", "ends"} & set(parameters) if method is connect else ():
+        raise InputError(f"{name}: rows of all points mean nothing within a group: leave it away")
 
 
 def _split(groups: ArrayLike, count: int) -> tuple[IntArray, IntArray]:
@@ -123,7 +130,7 @@ class _Groups(Delaunay):
     def run(self, work: Callable[..., Made], *arguments: Any) -> Any:
         if work is _core.select:
             method, parameters = arguments
-        elif work is _core.connect:
+        elif work is _core.connect and arguments == (None,):
             method, parameters = "connect", []
         else:
             raise _NeedsMoreError

@@ -26,15 +26,18 @@ pub struct Candidates {
     /// The angles opposite to the edge, summed, in half turns; rounded, so that it does not show which of several
     /// cocircular points was the apex.
     pub sights: Vec<f32>,
+    /// Is the edge to be in the answer, whatever it costs? Empty if none is.
+    pub kept: Vec<bool>,
 }
 
 impl Candidates {
-    /// The candidates among the edges of a triangulation. Linear, but for diagonals of cocircular points.
+    /// The edges of a triangulation and those to `keep`, pairs of vertices both ways. Linear, but for diagonals of cocircular
+    /// points.
     ///
     /// # Errors
     /// More half-edges than 32 bits can number, or a cancelled `progress`.
-    pub fn new(delaunay: &Delaunay, progress: &Progress) -> Result<Self> {
-        let tied = tied(delaunay);
+    pub fn new(delaunay: &Delaunay, keep: &[[u32; 2]], progress: &Progress) -> Result<Self> {
+        let tied = tied(delaunay, keep);
         progress.advance(0)?;
         let vertices = delaunay.points().len();
         let offsets = offsets(delaunay, &tied)?;
@@ -44,6 +47,13 @@ impl Candidates {
         own.fill(delaunay, &tied);
         progress.advance(0)?;
         own.link();
+        if !keep.is_empty() {
+            own.kept = own.map(false, |v, kept| {
+                for (kept, &end) in kept.iter_mut().zip(own.neighbors(v)) {
+                    *kept = keep.binary_search(&[v as u32, end]).is_ok();
+                }
+            });
+        }
         Ok(own)
     }
 
@@ -57,6 +67,9 @@ impl Candidates {
                 self.ends[place] = self.ends[e];
                 self.sights[place] = self.sights[e];
                 values[place] = values[e];
+                if let Some(&kept) = self.kept.get(e) {
+                    self.kept[place] = kept;
+                }
                 place += 1;
             }
         }
@@ -69,6 +82,7 @@ impl Candidates {
             values.shrink_to_fit();
         }
         self.ends.shrink_to_fit();
+        self.kept.truncate(place);
         self.link();
         self.limit_pairs(values);
     }
@@ -84,6 +98,13 @@ impl Candidates {
     #[must_use]
     pub fn from(&self, v: usize) -> std::ops::Range<usize> {
         self.offsets[v] as usize..self.offsets[v + 1] as usize
+    }
+
+    /// Is the edge of half-edge `e` to be in the answer?
+    #[inline]
+    #[must_use]
+    pub fn is_kept(&self, e: usize) -> bool {
+        self.kept.get(e).copied().unwrap_or_default()
     }
 
     /// The neighbors of `v`.
@@ -176,11 +197,14 @@ impl Candidates {
                 self.paired[v] = range.len() as u8;
                 continue;
             }
-            let mut sorted = values[range.clone()].to_vec();
+            let key = |own: &Self, values: &[f32], e: usize| {
+                if own.is_kept(e) { f32::NEG_INFINITY } else { values[e] }
+            };
+            let mut sorted: Vec<f32> = range.clone().map(|e| key(self, values, e)).collect();
             let (_, &mut limit, _) = sorted.select_nth_unstable_by(MOST_PAIRED, f32::total_cmp);
             let mut place = range.start;
             for e in range.clone() {
-                if values[e] < limit {
+                if key(self, values, e) < limit {
                     self.swap(e, place);
                     values.swap(e, place);
                     place += 1;
@@ -195,6 +219,9 @@ impl Candidates {
         self.ends.swap(a, b);
         self.sights.swap(a, b);
         self.twins.swap(a, b);
+        if !self.kept.is_empty() {
+            self.kept.swap(a, b);
+        }
         for e in [a, b] {
             let twin = self.twins[e] as usize;
             self.twins[twin] = e as u32;
@@ -226,12 +253,17 @@ pub fn by_vertex<T: Copy + Default + Send>(
     values
 }
 
-/// The diagonals of cocircular points that are not in the triangulation, from both of their ends, sorted.
-fn tied(delaunay: &Delaunay) -> Vec<(u32, Edge)> {
+/// The diagonals of cocircular points and the edges to keep that are not in the triangulation, from both of their ends,
+/// sorted.
+fn tied(delaunay: &Delaunay, keep: &[[u32; 2]]) -> Vec<(u32, Edge)> {
     let is_new = |edge: &Edge| !delaunay.star(edge.p).neighbors.contains(&edge.q);
     let both = |edge: Edge| [(edge.p, edge), (edge.q, edge)];
-    let mut tied: Vec<_> = diagonals(delaunay).into_iter().filter(is_new).flat_map(both).collect();
+    let kept = keep.iter().filter(|pair| pair[0] < pair[1]);
+    let kept = kept.map(|&[p, q]| Edge { p, q, left: None, right: None });
+    let all = diagonals(delaunay).into_iter().chain(kept);
+    let mut tied: Vec<_> = all.filter(is_new).flat_map(both).collect();
     tied.par_sort_unstable_by_key(|&(v, edge)| (v, edge.p, edge.q));
+    tied.dedup_by_key(|&mut (v, edge)| (v, edge.p, edge.q));
     tied
 }
 
@@ -262,7 +294,7 @@ fn collect(delaunay: &Delaunay, v: u32, tied: &[(u32, Edge)], star: &mut Vec<(u3
         let apexes = [own.left(k), own.right(k)];
         star.push((end, if v < end { sight(delaunay, v, end, apexes) } else { 0.0 }));
     }
-    // The opposite angles of a diagonal of cocircular points sum to half a turn.
+    // The opposite angles of a diagonal of cocircular points sum to half a turn, those of other edges to keep to more.
     star.extend(tied.iter().map(|&(_, edge)| (edge.p ^ edge.q ^ v, 1.0)));
     star.sort_unstable_by_key(|&(end, _)| end);
 }

@@ -79,6 +79,8 @@ pub const CONSTANTS: Constants = Constants {
 
 /// Edges that cost more than this are no candidates: to leave one out costs at most two ends, which is 2.
 pub const HOPELESS: f32 = 2.0;
+/// The price of what is not to be: more than all that the points could say against it at one place.
+pub const FORCED: f32 = 64.0;
 /// At a vertex of more edges than this pairs are made among the shortest only, so that hubs stay cheap.
 pub const MOST_PAIRED: usize = 14;
 /// Rings of neighbors whose medians smooth the local spacing: enough to vote down small clusters of outliers.

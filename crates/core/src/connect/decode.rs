@@ -4,12 +4,12 @@ use super::candidates::Candidates;
 use super::selection::Selection;
 use rayon::prelude::*;
 
-/// Take the edges that are believed in, the surest first, while both ends have fewer than two.
+/// Take the edges that are believed in, the surest first, while both ends have fewer than `most`, two or one.
 ///
 /// Equally sure edges that compete for a point are all left out, and the point takes no further ones: nothing in the
 /// points tells them apart, so no order of theirs may.
 #[must_use]
-pub fn decode(candidates: &Candidates, beliefs: &[f32]) -> Selection {
+pub fn decode(candidates: &Candidates, beliefs: &[f32], most: impl Fn(usize) -> u8) -> Selection {
     let mut sorted: Vec<(f32, u32, u32)> = candidates
         .edges()
         .filter(|&(_, e)| beliefs[e] < 0.0)
@@ -19,37 +19,35 @@ pub fn decode(candidates: &Candidates, beliefs: &[f32]) -> Selection {
     let mut selection = Selection::empty(candidates);
     let mut wanted = vec![0u8; candidates.vertices()];
     for equal in sorted.chunk_by(|a, b| a.0 == b.0) {
-        take(candidates, equal, &mut selection, &mut wanted);
+        take(candidates, equal, &most, &mut selection, &mut wanted);
     }
     selection
 }
 
-/// A vertex that takes no more edges.
-const FULL: u8 = 3;
-
-/// Take those of the equally sure edges that do not compete. `wanted` is by vertex: edges taken, or `FULL`.
+/// Take those of the equally sure edges that do not compete. `wanted` is by vertex: edges taken, or one more than the most.
 fn take(
     candidates: &Candidates,
     equal: &[(f32, u32, u32)],
+    most: &impl Fn(usize) -> u8,
     selection: &mut Selection,
     wanted: &mut [u8],
 ) {
     let ends = |&(_, v, e): &(f32, u32, u32)| [v as usize, candidates.ends[e as usize] as usize];
-    let is_free = |wanted: &[u8], v: usize| wanted[v] < 2;
+    let is_free = |wanted: &[u8], v: usize| wanted[v] < most(v);
     let open: Vec<_> =
         equal.iter().filter(|edge| ends(edge).iter().all(|&v| is_free(wanted, v))).collect();
     for v in open.iter().flat_map(|edge| ends(edge)) {
-        wanted[v] = (wanted[v] + 1).min(FULL);
+        wanted[v] = (wanted[v] + 1).min(most(v) + 1);
     }
     for edge in &open {
-        let is_alone = ends(edge).iter().all(|&v| wanted[v] < FULL);
+        let is_alone = ends(edge).iter().all(|&v| wanted[v] <= most(v));
         if is_alone {
             selection.set(candidates, edge.2 as usize, true);
         }
     }
     // An edge that its other end could not take leaves its place to others.
     for v in open.iter().flat_map(|edge| ends(edge)) {
-        if wanted[v] < FULL {
+        if wanted[v] <= most(v) {
             wanted[v] = selection.degrees[v];
         }
     }

@@ -48,6 +48,12 @@ impl<'a> Spacing<'a> {
         Self { points: delaunay.points(), nearest, lengths, crowding }
     }
 
+    /// The spacing around a vertex.
+    #[must_use]
+    pub fn around(&self, v: usize) -> f64 {
+        self.nearest[v] * libm::exp(f64::from(self.crowding[v]))
+    }
+
     /// The distance between two vertices.
     #[must_use]
     pub fn distance(&self, a: usize, b: usize) -> f64 {

@@ -12,13 +12,18 @@ use crate::progress::Progress;
 use crate::trace::{Curves, trace};
 use std::collections::HashSet;
 
-/// Put the rings of the crust that the theorem covers into `edges`, which are canonical.
+/// Put the rings of the crust that the theorem covers and that one may take into `edges`, which are canonical.
 ///
 /// The sampling ratio costs more than the crust, so it is estimated only if a ring that could be covered is not in already.
 ///
 /// # Errors
 /// A cancelled `progress`.
-pub fn guard(delaunay: &Delaunay, edges: Edges, progress: &Progress) -> Result<Edges> {
+pub fn guard(
+    delaunay: &Delaunay,
+    edges: Edges,
+    may_take: impl Fn(&[u32]) -> bool,
+    progress: &Progress,
+) -> Result<Edges> {
     let crust = crust(delaunay, progress)?;
     if crust == edges {
         return Ok(edges);
@@ -31,6 +36,7 @@ pub fn guard(delaunay: &Delaunay, edges: Edges, progress: &Progress) -> Result<E
     let curves = trace(&points, &crust, progress)?;
     let rings: Vec<&[u32]> = rings(&curves)
         .filter(|ring| sides(ring).any(|side| lost.contains(&side)) && is_smooth(&points, ring))
+        .filter(|ring| may_take(ring))
         .collect();
     if rings.is_empty() {
         return Ok(edges);

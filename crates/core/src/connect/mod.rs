@@ -10,6 +10,7 @@ mod decode;
 mod gaps;
 mod geometry;
 mod guard;
+mod hints;
 mod messages;
 mod prune;
 mod rings;
@@ -26,35 +27,44 @@ pub use constants::{CONSTANTS, Constants};
 use costs::{Costs, first_edge_costs};
 use decode::decode;
 use geometry::{Spacing, Turns};
+use hints::Known;
+pub use hints::{Hints, Longest};
 use messages::Factors;
 use roughness::Roughness;
 use selection::Selection;
 
-/// The edges of the curves that the points suggest, at most two a point.
+/// The edges of the curves that the points suggest, at most two a point, given what is known of them.
 ///
 /// Rings of the crust that the theorem covers are among them as they are. The same for any order of the rows, any number of
 /// threads, and after turns by 90°, reflections and exact translations. O(n log n).
 ///
 /// # Errors
 /// Too many points, or a cancelled `progress`.
-pub fn connect(delaunay: &Delaunay, constants: &Constants, progress: &Progress) -> Result<Edges> {
+pub fn connect(
+    delaunay: &Delaunay,
+    constants: &Constants,
+    hints: &Hints,
+    progress: &Progress,
+) -> Result<Edges> {
     progress.enter(Stage::Select, delaunay.points().len())?;
-    let mut candidates = Candidates::new(delaunay, progress)?;
+    let known = Known::new(hints, delaunay);
+    let mut candidates = Candidates::new(delaunay, &known.keep, progress)?;
     let mut spacing = Spacing::new(delaunay, &candidates, constants);
     progress.advance(0)?;
-    let hope: Vec<bool> = first_edge_costs(&candidates, &spacing, constants)
-        .into_iter()
-        .map(|cost| cost <= HOPELESS)
-        .collect();
+    let hope = hope(&candidates, &spacing, &known, constants);
     candidates.retain(&mut spacing.lengths, &hope);
+    for &end in &known.ends {
+        candidates.paired[end as usize] = 0;
+    }
     let turns = Turns::new(delaunay, &candidates);
     let mut sent = vec![0.0; candidates.ends.len()];
     let mut round = |rough: &Roughness| {
-        let costs = Costs::new(&candidates, &spacing, rough, constants);
+        let mut costs = Costs::new(&candidates, &spacing, rough, constants);
+        known.price(&candidates, &mut costs);
         let factors =
             Factors { candidates: &candidates, spacing: &spacing, turns: &turns, costs: &costs };
         factors.converge(&mut sent, progress)?;
-        let selection = decode(&candidates, &factors.beliefs(&sent));
+        let selection = decode(&candidates, &factors.beliefs(&sent), |v| known.most(v));
         Ok((costs, selection))
     };
     let (_, first) = round(&Roughness::default())?;
@@ -62,8 +72,31 @@ pub fn connect(delaunay: &Delaunay, constants: &Constants, progress: &Progress) 
     let (costs, mut selection) = round(&rough)?;
     let factors =
         Factors { candidates: &candidates, spacing: &spacing, turns: &turns, costs: &costs };
-    prune::prune(&factors, constants, &mut selection);
-    guard::guard(delaunay, edges(delaunay, &candidates, &selection), progress)
+    if !known.every_point {
+        prune::prune(&factors, constants, &mut selection);
+    }
+    prune::drop_small(&factors, hints.fewest, &mut selection);
+    let edges = edges(delaunay, &candidates, &selection);
+    let may_take = |ring: &[u32]| known.admits(&spacing, ring);
+    guard::guard(delaunay, edges, may_take, progress)
+}
+
+/// Which half-edges are worth a look, and allowed.
+fn hope(
+    candidates: &Candidates,
+    spacing: &Spacing<'_>,
+    known: &Known,
+    constants: &Constants,
+) -> Vec<bool> {
+    let costs = first_edge_costs(candidates, spacing, constants);
+    let most = if known.is_costly() { f32::INFINITY } else { HOPELESS };
+    candidates.map(false, |v, own| {
+        for ((own, e), &end) in own.iter_mut().zip(candidates.from(v)).zip(candidates.neighbors(v))
+        {
+            let allowed = costs[e] <= most && known.allows(spacing, v, end);
+            *own = allowed || candidates.is_kept(e);
+        }
+    })
 }
 
 fn edges(delaunay: &Delaunay, candidates: &Candidates, selection: &Selection) -> Edges {

@@ -19,7 +19,18 @@ pub fn prune(factors: &Factors<'_>, constants: &Constants, selection: &mut Selec
     let most = components.iter().map(Vec::len).max().unwrap_or_default() as f64;
     let limit = (most * constants.prune_size).max(SMALL as f64);
     for component in components.iter().filter(|component| (component.len() as f64) < limit) {
-        if is_outlier(factors, selection, component, apart, constants) {
+        if !is_kept(factors, component)
+            && is_outlier(factors, selection, component, apart, constants)
+        {
+            drop_edges(factors, selection, component);
+        }
+    }
+}
+
+/// Drop the components of fewer vertices than this.
+pub fn drop_small(factors: &Factors<'_>, fewest: usize, selection: &mut Selection) {
+    if fewest > 2 {
+        for component in components(factors, selection).iter().filter(|own| own.len() < fewest) {
             drop_edges(factors, selection, component);
         }
     }
@@ -57,6 +68,12 @@ fn component(
         }
     }
     found
+}
+
+/// Has a component an edge to keep?
+fn is_kept(factors: &Factors<'_>, component: &[usize]) -> bool {
+    let candidates = factors.candidates;
+    component.iter().any(|&v| candidates.from(v).any(|e| candidates.is_kept(e)))
 }
 
 fn is_outlier(
