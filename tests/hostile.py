@@ -23,7 +23,7 @@ from hypothesis import strategies as st
 
 import crustline as cl
 from crustline import shapes, theory
-from crustline.errors import CrustlineError
+from crustline.errors import CrustlineError, FormatWarning
 
 Make = Callable[[], Any]
 
@@ -315,6 +315,7 @@ def refusal(call: Call) -> str | None:
     arguments = {name: make() for name, make in call.arguments.items()}
     with warnings.catch_warnings():
         warnings.simplefilter("error")
+        warnings.simplefilter("ignore", FormatWarning)
         try:
             look_at(call.function(**arguments))
         except CrustlineError as error:

@@ -486,3 +486,12 @@ def test_gdal_reads_what_shapely_gave_it(tmp_path: Path) -> None:
     points = cl.read(path)
     assert len(points) == 6  # the vertex that closes the box is none
     assert points.columns["name"].tolist() == ["a"] * 4 + ["b"] * 2
+
+
+def test_a_damaged_number_in_a_drawing_is_refused(tmp_path: Path) -> None:
+    """It was guessed, and told to nobody but the log."""
+    path = tmp_path / "a.dxf"
+    cl.write([(1.25, 2.5), (3, 4)], path)
+    path.write_bytes(path.read_bytes().replace(b"1.25", b"1.2,5"))
+    with pytest.raises(cl.FormatError, match=r"a\.dxf, near line \d+: '1.2,5' is not a number"):
+        cl.read(path)

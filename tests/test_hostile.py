@@ -99,6 +99,26 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
         "tolerance asks for more than 100,000,000 points",
     ),
     "rows that are none": (lambda: cl.Points([(0, 0)]).select([1]), "rows: 1 is none of the 1"),
+    "a method by its name, to denoise": (
+        lambda: cl.denoise(hostile.RING, method="crust"),  # type: ignore[arg-type]
+        "method is 'crust', not a function: write method=cl.crust",
+    ),
+    "a method that needs more, to denoise": (
+        lambda: cl.denoise(hostile.RING, method=cl.alpha_shape), "alpha_shape needs radius"
+    ),
+    "noisy points beyond the squares of floats": (
+        lambda: cl.denoise(hostile.RING * 1e300), "the extent of the points must be between"
+    ),
+    "a method of a long name": (
+        lambda: cl.reconstruct([], method="x" * 9999),  # type: ignore[arg-type]
+        r"x…, not a function: write method=cl\.connect",
+    ),
+    "a target of no format": (lambda: cl.Points([]).write("a.none"), "^.{1,399}$"),
+    "noise that is no number": (lambda: cl.denoise(hostile.RING, noise=["a"]), "noise must be a n"),
+    "groups without end": (
+        lambda: cl.by_group([(0, 0), (1, 1)], hostile.Endless()),  # type: ignore[arg-type]
+        "groups: the labels are no flat list",
+    ),
     "a path that is a number": (lambda: cl.read(5), "path is 5: give a path"),
     "a target that is a number": (lambda: cl.Points([]).write(5), "path is 5: give a file name"),  # type: ignore[arg-type]
 }  # fmt: skip

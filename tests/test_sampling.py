@@ -185,8 +185,8 @@ def work(monkeypatch: pytest.MonkeyPatch) -> Callable[[SmoothCurve], int]:
         r_sample(curve, 0.3)
         return counted[0]
 
-    evaluate, touch = SmoothCurve.on_loops, contacts._touching
-    monkeypatch.setattr(SmoothCurve, "on_loops", on_loops)
+    evaluate, touch = SmoothCurve._on_loops, contacts._touching
+    monkeypatch.setattr(SmoothCurve, "_on_loops", on_loops)
     monkeypatch.setattr(contacts, "_touching", touching)
     return count
 

@@ -9,16 +9,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crustline import _core
-from crustline.arrays import BoolArray, FloatArray, IntArray
+from crustline.arrays import BoolArray, FloatArray, IntArray, as_floats
 from crustline.curves import Curves, trace
 from crustline.delaunay import Delaunay, as_delaunay
 from crustline.denoise.clean import clean_strands, rest
 from crustline.denoise.strand import ROWS, Strand, strands
 from crustline.errors import InputError, missing_extra
-from crustline.methods import connect
+from crustline.methods import as_method, connect
 from crustline.points import Points
 from crustline.records import Record
-from crustline.scalars import as_real
+from crustline.scalars import as_real, as_size
 
 __all__ = ["Denoised", "denoise"]
 
@@ -142,8 +142,9 @@ def denoise(
     (True, True)
     """
     _require_scipy()
+    method = as_method(method, {})
     delaunay = as_delaunay(points)
-    _refuse_too_few(delaunay)
+    _check(delaunay)
     given = None if noise is None else as_noise(noise, delaunay.points.xy)
     parts = clean_strands(delaunay, method) if given is None else []
     rows = np.flatnonzero(rest(delaunay, parts))
@@ -159,15 +160,14 @@ def denoise(
 
 def as_noise(noise: ArrayLike, points: FloatArray) -> FloatArray:
     """Return deviations of the noise, one a row."""
-    given = np.asarray(noise)
+    given = as_floats("noise", noise)
     if given.ndim == 0:
         given = np.full(len(points), as_real("noise", given.item(), "0 or more", lambda x: x >= 0))
-    if given.shape != (len(points),) or given.dtype.kind not in "fiu":
+    if given.shape != (len(points),):
         raise InputError(
             f"noise must be one number or one for each of the {len(points)} rows, "
-            f"not of shape {given.shape} and type {given.dtype}"
+            f"not of shape {given.shape}"
         )
-    given = given.astype(float)
     wrong = np.flatnonzero(~(np.isfinite(given) & (given >= 0)))
     if wrong.size:
         raise InputError(f"row {wrong[0]}: noise must be 0 or more, not {given[wrong[0]]}")
@@ -190,13 +190,15 @@ def _require_scipy() -> None:
         raise missing_extra("smooth", "scipy") from None
 
 
-def _refuse_too_few(delaunay: Delaunay) -> None:
+def _check(delaunay: Delaunay) -> None:
     different = len(delaunay) - len(delaunay.duplicates)
     if different < 3:
         raise InputError(
             f"the {len(delaunay)} points are at {different} different places: "
             "a curve through noisy points needs three at least"
         )
+    with np.errstate(over="ignore"):
+        as_size("the extent of the points", float(np.ptp(delaunay.points.xy, axis=0).max()))
 
 
 def _assembled(points: Points, parts: list[Strand]) -> Denoised:

@@ -96,7 +96,7 @@ def format_of_target(target: Target, name: str | None, task: str) -> Format:
     suffixes = ", ".join(suffixes_for(task))
     raise InputError(
         f"no format is known for the output {shown(target.name)}: name it {suffixes}, "
-        f"or choose one of {_names(task)}"
+        "or choose a format by its name"
     )
 
 

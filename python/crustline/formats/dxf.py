@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import logging
 from collections import Counter
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from itertools import chain
 from typing import Any
 
@@ -71,10 +73,11 @@ def _parts(source: Source, layer: str | None) -> Iterator[_Part]:
         from ezdxf import recover
         from ezdxf.disassemble import recursive_decompose
 
-        try:
-            drawing: Any = ezdxf.readfile(path)
-        except ezdxf.DXFStructureError:
-            drawing, _ = recover.readfile(path)
+        with _without_repairs(source):
+            try:
+                drawing: Any = ezdxf.readfile(path)
+            except ezdxf.DXFStructureError:
+                drawing, _ = recover.readfile(path)
         _refuse_explosions(drawing, source)
         known = {each.dxf.name for each in drawing.layers}
         found = False
@@ -88,6 +91,37 @@ def _parts(source: Source, layer: str | None) -> Iterator[_Part]:
     if layer is not None and not found:
         raise source.error(f"nothing is on a layer {layer!r:.60}: choose from {sorted(known)[:20]}")
     source.note("unit", str(drawing.header.get("$INSUNITS", 0)))
+
+
+@contextmanager
+def _without_repairs(source: Source) -> Iterator[None]:
+    """Refuse a number that ezdxf guesses from a damaged one, and warn of what else it repairs."""
+    logger, repairs = logging.getLogger("ezdxf"), _Remarks()
+    propagates, logger.propagate = logger.propagate, False
+    logger.addHandler(repairs)
+    try:
+        yield
+    finally:
+        logger.removeHandler(repairs)
+        logger.propagate = propagates
+    for remark in repairs.found:
+        if "floating point value" in remark:
+            value, near = remark.split('"')[1][:40], remark.partition(" near line ")[2]
+            place = f"near line {near.partition(' ')[0]}"
+            raise source.error(f"{value!r} is not a number: correct it", place)
+    if repairs.found:
+        source.warn(f"it was damaged, and read without what was: {repairs.found[0][:120]}")
+
+
+class _Remarks(logging.Handler):
+    """What is logged, in lines."""
+
+    def __init__(self) -> None:
+        super().__init__(logging.WARNING)
+        self.found: list[str] = []
+
+    def emit(self, record: logging.LogRecord) -> None:
+        self.found.append(" ".join(record.getMessage().split()))
 
 
 def _refuse_explosions(drawing: Any, source: Source) -> None:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING, Any
 
 from crustline.formats.catalog import able, format_of_source, suffixes_for
 from crustline.formats.crs import normalize_crs
-from crustline.formats.format import Layer
+from crustline.formats.format import Format, Layer
 from crustline.formats.packed import member, unpacked
 from crustline.formats.signatures import known_archive
 from crustline.formats.source import Source
@@ -79,7 +80,8 @@ def read(
     chosen.require()
     assert chosen.read is not None
     source.note("format", chosen.title)
-    return _with_crs(chosen.read(source, **settings), crs)
+    with _library(chosen, source):
+        return _with_crs(chosen.read(source, **settings), crs)
 
 
 def read_curves(
@@ -109,7 +111,8 @@ def read_curves(
     settings = chosen.settings("read_curves", options)
     chosen.require()
     assert chosen.read_curves is not None
-    curves = chosen.read_curves(source, **settings)
+    with _library(chosen, source):
+        curves = chosen.read_curves(source, **settings)
     return replace(curves, points=_with_crs(curves.points, crs))
 
 
@@ -145,11 +148,19 @@ def stream(
     task = "stream" if chosen.stream else "read"
     settings = chosen.settings(task, options)
     chosen.require()
-    if chosen.stream is not None:
-        for piece in chosen.stream(source, rows, **settings):
-            yield _with_crs(piece, crs)
-    elif chosen.read is not None:
-        yield _with_crs(chosen.read(source, **settings), crs)
+    assert chosen.read is not None
+    with _library(chosen, source):
+        if chosen.stream is None:
+            pieces: Iterable[Points] = (chosen.read(source, **settings),)
+        else:
+            pieces = chosen.stream(source, rows, **settings)
+        pieces = iter(pieces)
+    while True:
+        with _library(chosen, source):
+            piece = next(pieces, None)
+        if piece is None:
+            return
+        yield _with_crs(piece, crs)
 
 
 def layers(path: Any, *, format: str | None = None) -> list[Layer]:
@@ -159,7 +170,13 @@ def layers(path: Any, *, format: str | None = None) -> list[Layer]:
     if chosen.layers is None:
         return []
     chosen.require()
-    return chosen.layers(source)
+    with _library(chosen, source):
+        return chosen.layers(source)
+
+
+def _library(chosen: Format, source: Source) -> AbstractContextManager[None]:
+    """Make whatever the library of a format raises a `FormatError`."""
+    return source.library(chosen.needs[0].replace("_", "-")) if chosen.needs else nullcontext()
 
 
 def _opened(path: Any) -> Source:

@@ -151,8 +151,11 @@ class Source:
         """Make whatever a library raises a `FormatError`, in a sentence."""
         try:
             yield
-        except (CrustlineError, MemoryError):
+        except CrustlineError:
             raise
+        except MemoryError:  # of a file that is large, or that says so and is not
+            advice = "read a part of it, or repair it"
+            raise self.error(f"{name} asks for more memory than there is: {advice}") from None
         except Exception as error:
             lines = str(error).split("\n")
             reason = f"{type(error).__name__}{': ' if lines[0] else ''}{lines[0][:120]}"

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crustline import _core
-from crustline.arrays import FloatArray, IntArray, as_edges
+from crustline.arrays import FloatArray, IntArray, as_edges, not_too_deep
 from crustline.delaunay import Delaunay, How, Made, Progress, as_threads, points_and_how
 from crustline.errors import InputError
 from crustline.methods.connect import connect
@@ -96,7 +96,7 @@ def _refuse_rows(method: Callable[..., IntArray], parameters: dict[str, Any]) ->
 def _split(groups: ArrayLike, count: int) -> tuple[IntArray, IntArray]:
     """Return the rows of the groups one after another, and where each group ends."""
     try:
-        labels = np.asarray(groups)
+        labels = np.asarray(not_too_deep(groups, most=2))
     except (ValueError, TypeError, OverflowError):
         raise InputError("groups: the labels are no flat list: pass one label a point") from None
     if labels.shape != (count,):

@@ -28,7 +28,7 @@ def as_method(method: object, given: Mapping[str, Any]) -> Callable[..., Any]:
         check_parameters(method, given, name_of(method), "pass {}=…")
         return method
     spelled = method.replace("-", "_") if isinstance(method, str) else ""
-    name = spelled if spelled.isidentifier() else "connect"
+    name = spelled if spelled.isidentifier() and len(spelled) < 30 else "connect"
     raise InputError(f"method is {shown(method)}, not a function: write method=cl.{name}")
 
 

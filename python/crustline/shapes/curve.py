@@ -118,7 +118,7 @@ class SmoothCurve:
         if not np.isfinite(t).all():
             raise InputError(f"t must be finite, not {t[~np.isfinite(t)].flat[0]}")
         loop, u = self._place(t.ravel())
-        p, d1, d2 = (part.reshape((*t.shape, 2)) for part in self.on_loops(loop, u))
+        p, d1, d2 = (part.reshape((*t.shape, 2)) for part in self._on_loops(loop, u))
         return p, d1, d2
 
     def _place(self, t: FloatArray) -> tuple[IntArray, FloatArray]:
@@ -130,7 +130,7 @@ class SmoothCurve:
         loop = np.floor(place).astype(np.int64)
         return loop % c, place - loop
 
-    def on_loops(self, loop: IntArray, u: FloatArray) -> Three:
+    def _on_loops(self, loop: IntArray, u: FloatArray) -> Three:
         """Return the same at places u, modulo 1, of loops by their number; all of shape (k,)."""
         u, loop = np.atleast_1d(u) % 1.0, np.atleast_1d(loop)
         out = np.empty((3, len(u), 2))

@@ -51,7 +51,7 @@ class Nodes:
 
     def _near(self, rows: IntArray, offsets: FloatArray) -> tuple[FloatArray, ...]:
         loop = np.repeat(self.loop[rows], offsets.shape[1])
-        return self.curve.on_loops(loop, (self.u[rows, None] + offsets).ravel())
+        return self.curve._on_loops(loop, (self.u[rows, None] + offsets).ravel())
 
     @cached_property
     def extent(self) -> float:
@@ -79,7 +79,7 @@ class Nodes:
 
 def nodes_at(curve: SmoothCurve, loop: IntArray, u: FloatArray) -> Nodes:
     """Return the nodes at places that are sorted by loop and u, all loops having some."""
-    point, d1, d2 = curve.on_loops(loop, u)
+    point, d1, d2 = curve._on_loops(loop, u)
     following = np.arange(1, len(u) + 1)
     last = np.flatnonzero(np.append(loop[1:] != loop[:-1], True))
     following[last] = np.concatenate([[0], last[:-1] + 1])

@@ -89,7 +89,7 @@ def supremum(
     axis, near = as_curve(curve).medial_axis(rtol=min(rtol, 1e-4)), _core.Tree(sites, sites)
 
     def measured(loop: FloatArray, u: FloatArray) -> FloatArray:
-        p = curve.on_loops(loop.astype(np.int64), u)[0]
+        p = curve._on_loops(loop.astype(np.int64), u)[0]
         lfs = axis.distance(p)
         return np.column_stack([loop, u, p, near.distances(p), allowance(lfs), lfs])
 

@@ -196,5 +196,5 @@ def _assembled(curve: SmoothCurve, loops: list[FloatArray]) -> Sample:
     i = np.arange(len(u))
     following = np.where(i + 1 < (starts + counts)[loop], i + 1, starts[loop])
     pairs = np.unique(np.sort(np.stack([i, following], -1), axis=1), axis=0)
-    points = curve.on_loops(loop, u)[0]
+    points = curve._on_loops(loop, u)[0]
     return Sample(points, (loop + u) / len(loops), pairs[pairs[:, 0] < pairs[:, 1]])

@@ -29,7 +29,7 @@ def tables(curve: SmoothCurve, allowance: Allowance) -> list[FloatArray]:
     axis = as_curve(curve).medial_axis()
 
     def rows(loop: FloatArray, u: FloatArray) -> FloatArray:
-        p, velocity, _ = curve.on_loops(loop.astype(np.int64), u)
+        p, velocity, _ = curve._on_loops(loop.astype(np.int64), u)
         return np.column_stack([loop, u, p, velocity, allowance(axis.distance(p))])
 
     counts = np.array([ROWS_PER_PIECE * loop.pieces + 1 for loop in curve.loops])
