@@ -20,14 +20,17 @@ from crustline.smooth import Splines
 _WIDTH = 800
 _MARGIN = 0.03
 _STYLE = (
-    'fill="none" fill-rule="evenodd" stroke="#1f5fa8" stroke-width="1.5" '
+    'fill="none" fill-rule="evenodd" stroke="#1f5fa8" '
     'stroke-linejoin="round" stroke-linecap="round"'
 )
 _STYLES = {
     "polygon": ' fill="#1f5fa8" fill-opacity="0.15"',
     "line": "",
-    "points": ' stroke="#c2410c" stroke-width="5"',
+    "points": ' stroke="#c2410c"',
 }
+# Widths in pixels. They are written in the drawing's own unit: strokes that do not scale
+# (vector-effect) are unknown to some viewers, which would draw blots or nothing.
+_LINE, _DOT = 1.5, 5.0
 
 
 def write_curves(curves: Curves, target: Target, *, polygons: bool = False) -> None:
@@ -107,14 +110,15 @@ def _document(frame: _Frame, curves: Curves, drawn: Iterable[tuple[Feature, Path
     width, height = frame.high - frame.low + 2 * margin
     box = " ".join(f"{each:.9g}" for each in (x, -y - height, width, height))
     pixels = max(1, min(4 * _WIDTH, round(_WIDTH * height / width)))
+    pixel = max(width / _WIDTH, height / pixels)
     note = f' data-origin="{frame.origin[0]!s} {frame.origin[1]!s}" data-scale="{frame.scale!r}"'
     plain = not frame.origin.any() and frame.scale == 1
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" width="{_WIDTH}"'
         f' height="{pixels}"{"" if plain else note}>',
         f"<title>{_title(curves)}</title>",
-        f'<g transform="scale(1 -1)" {_STYLE}>',
-        *_elements(frame, drawn),
+        f'<g transform="scale(1 -1)" {_STYLE} stroke-width="{_LINE * pixel:.4g}">',
+        *_elements(frame, drawn, f' stroke-width="{_DOT * pixel:.4g}"'),
         "</g>",
         "</svg>",
         "",
@@ -129,11 +133,10 @@ def _title(curves: Curves) -> str:
     return ", ".join(f"{count} {word}{'s' * (count != 1)}" for count, word in counts if count)
 
 
-def _elements(frame: _Frame, drawn: Iterable[tuple[Feature, Path]]) -> Iterator[str]:
+def _elements(frame: _Frame, drawn: Iterable[tuple[Feature, Path]], dots: str) -> Iterator[str]:
     for feature, path in drawn:
-        body = frame.place(path).svg()
-        style = _STYLES[feature.kind]
-        yield f'<path d="{body}" vector-effect="non-scaling-stroke"{style}/>'
+        style = _STYLES[feature.kind] + dots * (feature.kind == "points")
+        yield f'<path d="{frame.place(path).svg()}"{style}/>'
 
 
 SVG = Format(
