@@ -173,13 +173,10 @@ def test_a_bad_cell_behind_the_first_block_is_named(read_text):
         read_text("x,y,name\n" + "\n".join(rows))
 
 
-def test_a_hundred_thousand_rows_are_read_fast(read_text):
+def test_a_hundred_thousand_rows_are_read(read_text):
     rows = np.random.default_rng(0).random((100_000, 2))
     text = "x,y\n" + "\n".join(f"{x!r},{y!r}" for x, y in rows.tolist())
-    started = time.perf_counter()
-    points = read_text(text)
-    assert time.perf_counter() - started < 2  # takes 0.1 s; a busy machine may take longer
-    assert np.array_equal(points, rows)
+    assert np.array_equal(read_text(text), rows)
 
 
 # Writing
@@ -229,3 +226,26 @@ def test_reading_gives_back_what_was_written(tmp_path_factory, rows):
     assert again.xy.tobytes() == points.xy.tobytes()
     if again.columns["text"].dtype.kind == "O":  # else all of them were numbers
         assert again.columns["text"].tolist() == points.columns["text"].tolist()
+
+
+def header_work(columns):
+    """Processor seconds of reading a table of so many columns, the least of three."""
+    text = "\n".join(",".join(f"{mark}{k}" for k in range(columns)) for mark in ("c", "", "1"))
+    seconds = []
+    for _ in range(3):
+        start = time.process_time()
+        read(text.encode(), format="csv", columns=["c0", "c1"])
+        seconds.append(time.process_time() - start)
+    return min(seconds)
+
+
+def test_work_is_linear_in_the_columns():
+    """20,000 header cells took 23 s, 100,000 over a minute."""
+    assert header_work(40_000) < 3 * 8 * header_work(5_000)
+
+
+def test_long_names_are_looked_at_once():
+    """A unit was looked for at each of their characters."""
+    for long in (" " * 100_000, "[" * 100_000):
+        points = read(f"x{long}x,y,x\n1,2,3\n4,5,6\n".encode(), format="csv")
+        assert points.xy.tolist() == [[3, 2], [6, 5]]

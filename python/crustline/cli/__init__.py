@@ -7,7 +7,6 @@ pipes are `main`'s.
 
 from __future__ import annotations
 
-import io
 import os
 import sys
 import warnings
@@ -19,6 +18,7 @@ import click
 from crustline.cli.batch import batch
 from crustline.cli.certify import certify
 from crustline.cli.completion import completion
+from crustline.cli.encoding import spell_out
 from crustline.cli.info import convert, info
 from crustline.cli.medial_axis import medial_axis
 from crustline.cli.method import list_methods
@@ -30,9 +30,7 @@ from crustline.errors import CrustlineError, FormatWarning
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
     """Run the command with some arguments, by default those of the process, and exit."""
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="replace")  # β is not in every encoding
+    spell_out()
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("always", FormatWarning)

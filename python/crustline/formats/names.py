@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from crustline.errors import FormatError, InputError
 
@@ -31,6 +31,10 @@ _PAIRS = (
 _SECTIONS = (("x", "z"), ("r", "z"))
 _HEIGHTS = ("z", "elevation", "height", "elev", "altitude", "alt", "points 2")
 _UNIT = re.compile(r"\s*(?:\[[^\]]*\]|\([^)]*\))\s*$")
+_BETWEEN = re.compile(r"(?<=[a-z])(?=[A-Z])|[\W_]+")
+_COORDINATE = re.compile(r"^([xyz]) ?coord(?:inate)?s?$")
+#: Longer names are none of coordinates; looking for units takes the square of their length.
+_LONGEST = 100
 #: What names of coordinates hold besides.
 _PADDING = {
     "point", "coord", "coords", "coordinate", "pos", "position", "utm", "wgs84", "gps", "deg",
@@ -58,8 +62,7 @@ def find_coordinates(
 
 def find_pair(names: Sequence[str]) -> tuple[int, int] | None:
     """Return the positions of the first known pair of names, as they are or less their padding."""
-    plain = [plain_name(name) for name in names]
-    return _pair_among(list(names)) or _pair_among(_lower(names)) or _pair_among(plain)
+    return next(filter(None, map(_pair_among, _spellings(names))), None)
 
 
 def _pair_among(spelled: list[str]) -> tuple[int, int] | None:
@@ -82,9 +85,11 @@ def plain_name(name: str) -> str:
     >>> [plain_name(name) for name in ("X [m]", "POINT_X", "xcoord", "decimalLongitude")]
     ['x', 'x', 'x', 'longitude']
     """
-    words = re.sub(r"(?<=[a-z])(?=[A-Z])|[\W_]+", " ", _UNIT.sub("", name)).lower().split()
+    if len(name) > _LONGEST:
+        return name
+    words = _BETWEEN.sub(" ", _UNIT.sub("", name)).lower().split()
     kept = [word for word in words if word not in _PADDING] or words
-    return re.sub(r"^([xyz]) ?coord(?:inate)?s?$", r"\1", " ".join(kept))
+    return _COORDINATE.sub(r"\1", " ".join(kept))
 
 
 def refuse_repeated(names: Sequence[str], source: str) -> None:
@@ -103,15 +108,18 @@ def quote_all(names: Sequence[str]) -> str:
 
 
 def _first_of(wanted: Sequence[str], names: Sequence[str]) -> list[int]:
-    for spelled in (list(names), _lower(names), [plain_name(name) for name in names]):
+    for spelled in _spellings(names):
         found = [spelled.index(name) for name in wanted if name in spelled]
         if found:
             return found[:1]
     return []
 
 
-def _lower(names: Sequence[str]) -> list[str]:
-    return [name.strip().lower() for name in names]
+def _spellings(names: Sequence[str]) -> Iterator[list[str]]:
+    """Yield the names as they are, in lower case, and less their padding, the last if need be."""
+    yield list(names)
+    yield [name.strip().lower() for name in names]
+    yield [plain_name(name) for name in names]
 
 
 def _position(chosen: str | int, names: Sequence[str], source: str) -> int:

@@ -37,7 +37,7 @@ def read(source: Source, *, columns: Chosen = None) -> Points:
     with source.path() as path, source.library("pyarrow"):
         import pyarrow.parquet as pq
 
-        table = pq.read_table(path)
+        table = _sound(pq.read_table(path))
     return _points(table, source, columns)
 
 
@@ -46,7 +46,7 @@ def read_feather(source: Source, *, columns: Chosen = None) -> Points:
     with source.path() as path, source.library("pyarrow"):
         import pyarrow.feather as feather
 
-        table = feather.read_table(path)
+        table = _sound(feather.read_table(path))
     return _points(table, source, columns)
 
 
@@ -59,7 +59,9 @@ def stream(source: Source, rows: int, *, columns: Chosen = None) -> Iterator[Poi
         with pq.ParquetFile(path) as file:
             schema = file.schema_arrow
             for batch in file.iter_batches(rows):
-                table = pa.Table.from_batches([batch]).replace_schema_metadata(schema.metadata)
+                table = _sound(pa.Table.from_batches([batch])).replace_schema_metadata(
+                    schema.metadata
+                )
                 yield _points(table, source, columns)
 
 
@@ -68,13 +70,19 @@ def read_curves(source: Source) -> Curves:
     with source.path() as path, source.library("pyarrow"):
         import pyarrow.parquet as pq
 
-        table = pq.read_table(path)
+        table = _sound(pq.read_table(path))
     about = _geometry(table, source)
     if about is None:
         raise source.error("it is a table without geometries: read points from it")
     name, crs = about
     with source.library("shapely"):
         return curves_of(_geometries(table.column(name)), _columns(table, [name]), crs)
+
+
+def _sound(table: Any) -> Any:
+    """Return a table whose offsets lead into it; a damaged one would end the process."""
+    table.validate(full=True)
+    return table
 
 
 def _points(table: Any, source: Source, columns: Chosen) -> Points:

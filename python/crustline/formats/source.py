@@ -48,7 +48,7 @@ class Source:
         if not isinstance(self.given, os.PathLike) and not hasattr(self.given, "read"):
             _check_iterable(self.given)
         self.name = short_name(self.name or _name_of(self.given))
-        refuse_null(self.given)
+        refuse_no_name(self.given)
 
     @property
     def suffix(self) -> str:
@@ -271,10 +271,17 @@ def short_name(name: str) -> str:
     return name if len(name) <= 160 else f"{name[:60]}…{name[-90:]}"
 
 
-def refuse_null(given: object) -> None:
-    """Refuse a path with a null character, which no system takes."""
-    if isinstance(given, str | os.PathLike) and "\0" in os.fspath(given):
-        raise FormatError(f"{os.fspath(given)!r} is no file name: it holds a null character")
+def refuse_no_name(given: object) -> None:
+    """Refuse a path that the system takes for no name: it holds a null, or what has no bytes."""
+    if not isinstance(given, str | os.PathLike):
+        return
+    fault = "it holds a null character" if "\0" in os.fspath(given) else ""
+    try:
+        os.fsencode(given)
+    except UnicodeEncodeError as error:
+        fault = f"{error.encoding} has no {error.object[error.start]!a}, change the locale or it"
+    if fault:
+        raise FormatError(f"{shown(os.fspath(given))} is no file name: {fault}")
 
 
 def reason_of(error: OSError) -> str:

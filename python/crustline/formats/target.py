@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from crustline.errors import FormatError, InputError, shown
-from crustline.formats.source import reason_of, refuse_null, short_name
+from crustline.formats.source import reason_of, refuse_no_name, short_name
 
 __all__ = ["Target", "check_writable"]
 
@@ -37,7 +37,7 @@ class Target:
         is_file = hasattr(self.given, "write") and hasattr(self.given, "flush")
         if not (is_file or isinstance(self.given, str | os.PathLike)):
             raise InputError(f"path is {shown(self.given)}: give a file name, or an open file")
-        refuse_null(self.given)
+        refuse_no_name(self.given)
 
     @property
     def name(self) -> str:
@@ -142,6 +142,7 @@ def _is_special(path: str) -> bool:
 
 def check_writable(path: str | os.PathLike[str]) -> None:
     """Raise `FormatError` if a file can surely not be written, before work is done for it."""
+    refuse_no_name(path)
     target = os.path.realpath(path)
     folder = os.path.dirname(target)
     reason = None
