@@ -177,7 +177,25 @@ def save(name: str, header: str, points: Rows) -> None:
     (HERE / name).write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
+def tracks() -> list[str]:
+    """Three walks along a path, as a receiver records them, its accuracy, and two that are off."""
+    rng = np.random.default_rng(11)
+    rows = []
+    for walk in range(3):
+        t = np.sort(rng.uniform(0, 1, 120))
+        accuracy = np.round(rng.uniform(3, 8, len(t)), 1)
+        path = np.column_stack((600 * t, 120 * np.sin(7 * t) + 90 * t))
+        x, y = (path + accuracy[:, None] * rng.normal(size=path.shape)).round(1).T
+        time = [f"2026-05-0{walk + 1}T10:{second // 60:02d}:{second % 60:02d}"
+                for second in (500 * t).astype(int).tolist()]  # fmt: skip
+        rows += [f"{a},{b},{c},{d}" for a, b, c, d in zip(x, y, accuracy, time, strict=True)]
+    rows += ["210.0,-90.0,5.0,2026-05-01T10:59:00", "480.0,190.0,5.0,2026-05-02T10:59:00"]
+    return [str(row) for row in rng.permutation(rows)]
+
+
 if __name__ == "__main__":
     save("goose.csv", "x,y", goose())
     save("two_octagons.csv", "x,y", two_octagons())
     save("new_zealand.csv", "lon,lat", new_zealand())
+    lines = ["x,y,accuracy,time", *tracks()]
+    (HERE / "tracks.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")

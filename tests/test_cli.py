@@ -198,7 +198,8 @@ def test_an_output_without_permission(run, tmp_path):
 @pytest.fixture
 def goose(run, examples, tmp_path):
     """Run a command on the goose, beside which its outputs are written."""
-    (tmp_path / "goose.csv").write_bytes((examples / "goose.csv").read_bytes())
+    for name in ("goose.csv", "tracks.csv"):
+        (tmp_path / name).write_bytes((examples / name).read_bytes())
 
     def on_goose(command, *arguments):
         return run(command, "goose.csv", *arguments)
@@ -216,10 +217,39 @@ def test_help_has_an_example_that_runs(run, goose, tmp_path, command):
     assert lines
     (tmp_path / "scan.csv").write_bytes((tmp_path / "goose.csv").read_bytes())
     for words in lines:
-        for module in {"plot": ["matplotlib"], "smooth": ["scipy"]}.get(command, []):
+        needed = {"plot": ["matplotlib"], "smooth": ["scipy"], "reconstruct": ["scipy"]}
+        for module in needed.get(command, []):
             pytest.importorskip(module)
         code, _, err = run(*words[1:])
         assert code == 0, err
+
+
+def test_fitted_curves_say_which_rows_how_uncertain_and_what_is_an_outlier(goose, run, tmp_path):
+    pytest.importorskip("scipy")
+    outputs = ["-o", "path.geojson", "-o", "path.csv"]
+    fit = ["--fit", "--noise", "accuracy"]
+    code, out, _ = run("reconstruct", "tracks.csv", *fit, *outputs, "--json")
+    assert code == 0
+    summary = json.loads(out)
+    assert (summary["rings"], summary["open_curves"], summary["outliers"]) == (0, 1, 2)
+    assert 3 < summary["noise"] < 8
+    features = json.loads((tmp_path / "path.geojson").read_text("utf-8"))["features"]
+    line, outliers = (each["properties"] for each in features)
+    rows = [int(row) for text in line["input_rows"] for row in text.split()]
+    assert sorted([*rows, *map(int, outliers["input_rows"])]) == list(range(362))
+    assert all(0 < value < 4 for value in line["uncertainty"])
+    assert outliers["uncertainty"] == [None, None]
+    header = "curve,order,row,x,y,closed,input_rows,uncertainty,noise"
+    assert (tmp_path / "path.csv").read_text("utf-8").startswith(header)
+
+
+def test_a_picture_shows_the_points_beside_the_fit(goose, tmp_path):
+    for module in ("matplotlib", "scipy"):
+        pytest.importorskip(module)
+    for command, picture in (("plot", "fit.svg"), ("reconstruct", "curves.svg")):
+        code, _, _ = goose(command, "--fit", "-o", picture)
+        assert code == 0
+        assert (tmp_path / picture).stat().st_size > 1000
 
 
 def test_medial_axis_is_within_the_box_and_has_its_parts(goose, tmp_path):
@@ -367,6 +397,11 @@ BAD_USES = [
     (["sample", "trefoil:2.5", "-r", "0.2", "-o", "a.csv"], ["lobes", "2.5"]),
     (["sample", "none.svg", "-r", "0.2", "-o", "a.csv"], ["none.svg", "no such file"]),
     (["sample", "circle", "-r", "0.2", "-o", "a.csv", "--mode", "odd"], ["--mode", "odd"]),
+    (["reconstruct", "square.csv", "--noise", "1"], ["--noise is for --fit"]),
+    (["reconstruct", "square.csv", "--fit", "--by", "name"], ["--by and --fit"]),
+    (["reconstruct", "square.csv", "--fit", "--noise", "x1"], ["--noise 'x1'", "neither"]),
+    (["reconstruct", "square.csv", "--fit", "--noise", "-1"], ["noise must be 0 or more", "-1"]),
+    (["reconstruct", "square.csv", "--fit", "--noise", "50"], ["larger than the extent"]),
     (["plot", "square.csv"], ["--output"]),
     (["plot", "square.csv", "-o", "a.gif"], ["a.gif", ".pdf"]),
     (["plot", "square.csv", "-o", "-"], ["'-'", ".pdf"]),

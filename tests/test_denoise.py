@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import pickle
 from collections.abc import Callable
 from typing import Any
 
@@ -167,6 +168,52 @@ def test_the_order_of_rows_and_the_number_of_threads_change_nothing() -> None:
     assert (moved.curves.points.xy == found.curves.points.xy).all()
     assert (moved.vertices == found.vertices[order]).all()
     assert cl.denoise(cl.Delaunay(points, threads=1)) == found
+
+
+def test_fit_of_reconstruct_is_denoise_with_rows_beside_the_vertices() -> None:
+    points, _, noise = noisy("two rings", 0.5, 8)
+    given = cl.Points(np.vstack((points, [(5, 5)])), z=np.arange(401), crs="EPSG:25832")
+    made = cl.Reconstruction(given, fit=True)
+    found = cl.denoise(given)
+    assert made.denoised == found
+    assert made.points == given
+    curves = made.curves
+    assert curves == cl.reconstruct(given, fit=True)
+    count = len(found.curves.points)
+    assert (curves.points.xy[:count] == found.curves.points.xy).all()
+    assert curves.isolated.tolist() == list(range(count, count + len(found.outliers)))
+    assert curves.points.crs == "EPSG:25832"
+    rows = [list(map(int, text.split())) for text in curves.points.columns["input_rows"]]
+    assert rows[:count] == [found.rows(vertex).tolist() for vertex in range(count)]
+    assert [row for own in rows[count:] for row in own] == found.outliers.tolist()
+    assert curves.points.z is not None
+    assert np.nanmedian(np.abs(curves.points.columns["noise"] - noise)) < 0.3 * noise
+    assert len(made.medial_axis.edges)
+    assert len(made.local_feature_size) == len(curves.points)
+    assert made.vertices == curves.points
+    assert (made.edges == curves.edges).all()
+    assert pickle.loads(pickle.dumps(made)) == made != cl.Reconstruction(given)
+
+
+def test_degrees_are_fitted_in_meters() -> None:
+    pytest.importorskip("pyproj")
+    rng = np.random.default_rng(9)
+    t = np.sort(rng.uniform(0, 1, 300))
+    path = np.column_stack((7.4 + 0.01 * t, 46.9 + 0.002 * np.sin(9 * t)))
+    off = rng.normal(0, 5, path.shape) / (76_000, 111_000)
+    points = cl.Points(path + off, crs="EPSG:4326")
+    found = cl.denoise(points, crs="auto")
+    assert topology(found) == (0, 1)
+    assert 4 < np.nanmedian(found.noise) < 6
+    assert found.curves.points.crs == "EPSG:4326"
+    assert np.abs(found.curves.points.xy - path.mean(axis=0)).max() < 0.01
+    assert found.points == points
+
+
+@pytest.mark.parametrize("option", [{"noise": 1.0}, {"crs": "auto"}])
+def test_what_is_for_fitting_needs_fit(option: dict[str, Any]) -> None:
+    with pytest.raises(cl.InputError, match=r"is for fitting curves: add fit=True"):
+        cl.reconstruct([(0, 0), (1, 0), (2, 1)], **option)
 
 
 def test_noise_can_be_given_of_all_points_and_of_each() -> None:

@@ -57,6 +57,7 @@ def readers_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("goose.csv", "points.csv", "scan.csv"):
         shutil.copy(ROOT / "examples" / "goose.csv", tmp_path / name)
     shutil.copy(ROOT / "examples" / "new_zealand.csv", tmp_path / "islands.csv")
+    shutil.copy(ROOT / "examples" / "tracks.csv", tmp_path / "tracks.csv")
     monkeypatch.chdir(tmp_path)
 
 

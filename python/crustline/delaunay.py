@@ -142,6 +142,10 @@ class Delaunay:
     def __reduce__(self) -> tuple[Any, ...]:
         return partial(Delaunay, threads=self._how[0]), (self.points,)
 
+    def alike(self, points: ArrayLike) -> Delaunay:
+        """Return the triangulation of other points, with the same threads and progress."""
+        return Delaunay(points, threads=self._how[0], progress=self._how[1])
+
     def run(self, work: Callable[..., Made], *arguments: object) -> Made:
         """Return what a function of the core makes of the triangulation, run as was asked for."""
         return work(self._core, *arguments, *self._how)

@@ -7,16 +7,19 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
-from functools import cached_property
+from functools import cached_property, partial
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import numpy.typing as npt
 
-from crustline.arrays import FloatArray, IntArray, as_edges
+from crustline.arrays import FloatArray, IntArray, as_edges, equal, read_only
 from crustline.certify import Certificate, certify
 from crustline.curves import Curves, trace
 from crustline.delaunay import Delaunay, as_delaunay, points_and_how
+from crustline.denoise import Denoised, denoise
+from crustline.errors import InputError
 from crustline.interpolant import local_feature_size
 from crustline.medial_axis import MedialAxis, medial_axis
 from crustline.methods import as_method, connect, name_of
@@ -38,6 +41,14 @@ class Reconstruction:
         threads and progress.
     method : callable, default `connect`
         Takes the triangulation of the points (which serves as an array of them) and returns edges.
+    fit : bool, default False
+        Whether to fit curves to noisy points, with new vertices: see `crustline.denoise`. The
+        method connects what they are fitted from.
+    noise : float or array_like of float, shape (n,), optional
+        With `fit`, the standard deviation of the noise, of all points or of each. By default it is
+        estimated.
+    crs : str, optional
+        With `fit`, the CRS to fit in, or "auto".
     **parameters
         Passed on to the method, such as ``beta=1.5`` for `beta_skeleton`.
 
@@ -49,15 +60,23 @@ class Reconstruction:
         The method.
     parameters : mapping of str to object
         Its parameters.
+    fit : bool
+        Whether curves are fitted.
     delaunay : Delaunay
-        The triangulation, which all else shares.
+        The triangulation of the points.
+    denoised : Denoised or None
+        With `fit`, the fitted curves with their rows, uncertainties and outliers.
+    vertices : Points
+        What edges, feature sizes and the certificate are about: the points, or with `fit` the
+        vertices of the fitted curves, and the outliers after them.
     edges : ndarray of int64, shape (m, 2)
-        What the method selects: i < j in each row, rows sorted.
+        What the method selects, or the edges of the fitted curves: rows of `vertices`, i < j in
+        each, rows sorted.
     curves : Curves
-        The edges traced: see `trace`.
+        The edges traced: see `trace`. With `fit` see `Denoised.annotated`.
     medial_axis : MedialAxis
         See `crustline.medial_axis`.
-    local_feature_size : ndarray of float64, shape (n,)
+    local_feature_size : ndarray of float64, shape (v,)
         See `crustline.local_feature_size`.
     certificate : Certificate
         See `certify`.
@@ -65,8 +84,8 @@ class Reconstruction:
     Raises
     ------
     InputError
-        If the points do not fit, the method is none, or its parameters are others; later, if the
-        edges that it returns do not fit.
+        If the points do not fit, the method is none, its parameters are others, or there is `noise`
+        or `crs` without `fit`; later, if the edges that it returns do not fit.
 
     Examples
     --------
@@ -81,11 +100,20 @@ class Reconstruction:
         self,
         points: npt.ArrayLike | Delaunay,
         method: Callable[..., npt.ArrayLike] = connect,
+        *,
+        fit: bool = False,
+        noise: npt.ArrayLike | None = None,
+        crs: str | None = None,
         **parameters: Any,
     ) -> None:
+        for name, given in (("noise", noise), ("crs", crs)):
+            if given is not None and not fit:
+                raise InputError(f"{name} is for fitting curves: add fit=True")
         self.method: Callable[..., npt.ArrayLike] = as_method(method, parameters)
         self.parameters: Mapping[str, Any] = MappingProxyType(parameters)
         self.points: Points = points_and_how(points)[0]
+        self.fit = bool(fit)
+        self._fit: dict[str, Any] = {"noise": _copied(noise), "crs": crs}
         self._given = points if isinstance(points, Delaunay) else self.points
 
     @cached_property
@@ -94,29 +122,50 @@ class Reconstruction:
         return as_delaunay(self._given)
 
     @cached_property
+    def denoised(self) -> Denoised | None:
+        """The fitted curves, with the rows behind each vertex."""
+        if not self.fit:
+            return None
+        method = partial(self.method, **self.parameters)
+        return denoise(self.delaunay, method=method, **self._fit)
+
+    @property
+    def vertices(self) -> Points:
+        """The points, or the vertices of the fitted curves and the outliers."""
+        return self.curves.points if self.fit else self.points
+
+    @cached_property
+    def _of_vertices(self) -> Delaunay:
+        return self.delaunay.alike(self.vertices) if self.fit else self.delaunay
+
+    @cached_property
     def edges(self) -> IntArray:
         """What the method selects, shape (m, 2): i < j in each row, rows sorted."""
+        if self.fit:
+            return self.curves.edges
         return as_edges(self.method(self.delaunay, **self.parameters), len(self.points))
 
     @cached_property
     def curves(self) -> Curves:
         """The rings and polylines of the edges."""
+        if self.denoised is not None:
+            return self.denoised.annotated()
         return trace(self.delaunay, self.edges)
 
     @cached_property
     def medial_axis(self) -> MedialAxis:
         """The medial axis of the curves."""
-        return medial_axis(self.delaunay, self.edges)
+        return medial_axis(self._of_vertices, self.edges)
 
     @cached_property
     def local_feature_size(self) -> FloatArray:
-        """The local feature size at each point, shape (n,), estimated."""
-        return local_feature_size(self.delaunay, self.edges)
+        """The local feature size at each vertex, shape (v,), estimated."""
+        return local_feature_size(self._of_vertices, self.edges)
 
     @cached_property
     def certificate(self) -> Certificate:
         """What is guaranteed about the edges, and where not."""
-        return certify(self.delaunay, self.edges)
+        return certify(self._of_vertices, self.edges)
 
     def picture(
         self, path: str | os.PathLike[str], *, show: Sequence[str] = ("points", "crust")
@@ -138,7 +187,8 @@ class Reconstruction:
         """Whether points, method and parameters are equal: they decide all else."""
         if not isinstance(other, Reconstruction):
             return NotImplemented
-        return self.__reduce__() == other.__reduce__()
+        same_fit = self.fit == other.fit and equal(self._fit, other._fit)
+        return same_fit and self.__reduce__()[1][:3] == other.__reduce__()[1][:3]
 
     __hash__ = None  # type: ignore[assignment]
 
@@ -149,17 +199,27 @@ class Reconstruction:
         return self
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _rebuild, (self._given, self.method, dict(self.parameters))
+        how = {"fit": self.fit, **self._fit}
+        return _rebuild, (self._given, self.method, dict(self.parameters), how)
 
     def __repr__(self) -> str:
         count = len(self.points)
-        return f"<Reconstruction: {count:,} point{'s' * (count != 1)} by {name_of(self.method)}>"
+        how = f"{'fitted ' * self.fit}by {name_of(self.method)}"
+        return f"<Reconstruction: {count:,} point{'s' * (count != 1)} {how}>"
 
 
 def _rebuild(
-    points: Points | Delaunay, method: Callable[..., npt.ArrayLike], parameters: dict[str, Any]
+    points: Points | Delaunay,
+    method: Callable[..., npt.ArrayLike],
+    parameters: dict[str, Any],
+    fit: dict[str, Any],
 ) -> Reconstruction:
-    return Reconstruction(points, method, **parameters)
+    return Reconstruction(points, method, **fit, **parameters)
+
+
+def _copied(noise: npt.ArrayLike | None) -> npt.ArrayLike | None:
+    """Return the noise in a form that the caller cannot change any more."""
+    return read_only(np.array(noise)) if isinstance(noise, np.ndarray | list) else noise
 
 
 def as_reconstruction(points: npt.ArrayLike | Delaunay | Reconstruction) -> Reconstruction:
@@ -170,6 +230,10 @@ def as_reconstruction(points: npt.ArrayLike | Delaunay | Reconstruction) -> Reco
 def reconstruct(
     points: npt.ArrayLike | Delaunay,
     method: Callable[..., npt.ArrayLike] = connect,
+    *,
+    fit: bool = False,
+    noise: npt.ArrayLike | None = None,
+    crs: str | None = None,
     **parameters: Any,
 ) -> Curves:
     """Return the curves that the points were sampled from, by a method.
@@ -180,18 +244,29 @@ def reconstruct(
         Coordinates, in any one unit. Finite. What points carry is kept.
     method : callable, default `connect`
         Takes the triangulation of the points and returns edges.
+    fit : bool, default False
+        Whether to fit curves to noisy points, with new vertices: see `crustline.denoise`.
+    noise : float or array_like of float, shape (n,), optional
+        With `fit`, the standard deviation of the noise, of all points or of each. By default it is
+        estimated.
+    crs : str, optional
+        With `fit`, the CRS to fit in, or "auto".
     **parameters
         Passed on to the method, such as ``beta=1.5`` for `beta_skeleton`.
 
     Returns
     -------
     curves : Curves
-        The edges of the method, traced: see `trace`.
+        The edges of the method, traced: see `trace`. With `fit`, curves through new vertices, each
+        with its rows and its uncertainty as columns: see `Denoised.annotated`.
 
     Raises
     ------
     InputError
-        If the points, the method, a parameter or the edges that it returns do not fit.
+        If the points, the method, a parameter or the edges that it returns do not fit, or there is
+        `noise` or `crs` without `fit`.
+    MissingExtraError
+        With `fit`, if scipy is not installed (extra `smooth`).
 
     See Also
     --------
@@ -202,5 +277,14 @@ def reconstruct(
     >>> curves = reconstruct([(0, 0), (1, 1), (1, 0), (0, 1)])
     >>> curves[0].indices.tolist(), curves[0].closed
     ([0, 2, 1, 3], True)
+
+    Noisy points are fitted:
+
+    >>> rng = np.random.default_rng(0)
+    >>> angle = rng.uniform(0, 2 * np.pi, 300)
+    >>> circle = np.column_stack((np.cos(angle), np.sin(angle))) + rng.normal(0, 0.1, (300, 2))
+    >>> fitted = reconstruct(circle, fit=True)
+    >>> len(fitted), bool(fitted[0].closed), list(fitted.points.columns)
+    (1, True, ['input_rows', 'uncertainty', 'noise'])
     """
-    return Reconstruction(points, method, **parameters).curves
+    return Reconstruction(points, method, fit=fit, noise=noise, crs=crs, **parameters).curves

@@ -14,7 +14,7 @@ from typing import Any
 
 import click
 
-from crustline.cli.method import Command, Method, method_options
+from crustline.cli.method import Command, Method, fit_options, method_options
 from crustline.cli.output import counted, write_with
 from crustline.cli.progress import progress_bar
 from crustline.cli.source import Source, format_options, reading_options
@@ -25,13 +25,11 @@ from crustline.formats.target import Target, check_writable
 
 @dataclass(frozen=True)
 class _Job:
-    """A file to read, the one to write, and how; the method by its name, for another process."""
+    """A file to read, the one to write, and how; all of it for another process."""
 
     source: Source
     output: str
-    method: str
-    parameters: dict[str, Any]
-    project: str | None
+    method: Method
     settings: dict[str, Any]
 
 
@@ -67,6 +65,7 @@ def _pace_options(command: Command) -> Command:
 @reading_options
 @format_options("write_curves")
 @method_options
+@fit_options
 def batch(
     names: tuple[str, ...],
     pattern: str,
@@ -124,14 +123,7 @@ def _jobs(
             raise InputError(f"{output!r} would be written twice, or is an input: change -o")
     settings = _checked(given, outputs[0])
     return [
-        _Job(
-            replace(source, name=file),
-            output,
-            method.name,
-            method.parameters,
-            method.project,
-            settings,
-        )
+        _Job(replace(source, name=file), output, method, settings)
         for file, output in zip(files, outputs, strict=True)
     ]
 
@@ -163,16 +155,10 @@ def _run(jobs: list[_Job], workers: int) -> Iterator[tuple[_Job, str | None]]:
 
 def _work(job: _Job) -> str | None:
     from crustline.delaunay import Delaunay
-    from crustline.methods import METHODS
-    from crustline.projection import projected
-    from crustline.reconstruction import Reconstruction
 
-    function = METHODS[job.method]
-    if job.project is not None:
-        function = projected(function, job.project)
     try:
         delaunay = Delaunay(job.source.read(), threads=job.source.threads or 1)
-        made = Reconstruction(delaunay, function, **job.parameters)
+        made = job.method.reconstruction(delaunay)
         write_with(made.curves, job.output, None, "write_curves", job.settings)
     except (CrustlineError, MemoryError) as error:
         return " ".join(str(error).split()) or "there is not enough memory"

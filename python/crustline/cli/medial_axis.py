@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 import numpy as np
 
-from crustline.cli.method import Method, method_options
+from crustline.cli.method import Method, fit_options, method_options
 from crustline.cli.output import Output, counted, output_options
 from crustline.cli.reconstruct import reconstruction
 from crustline.cli.source import Source, source_options
@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     "its longer side beyond]",
 )  # fmt: skip
 @method_options
+@fit_options
 def medial_axis(
     source: Source,
     output: Output,

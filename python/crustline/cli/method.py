@@ -5,24 +5,52 @@ from __future__ import annotations
 import functools
 import json
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from crustline.errors import InputError
+from crustline.formats.names import quote_all
+
+if TYPE_CHECKING:
+    from crustline.delaunay import Delaunay
+    from crustline.points import Points
+    from crustline.reconstruction import Reconstruction
 
 Command = Callable[..., None]
 
 
 @dataclass(frozen=True)
 class Method:
-    """A function from points to edges, and the parameters that were set for it."""
+    """A method by its name, the parameters that were set for it, and whether curves are fitted."""
 
     name: str
-    function: Callable[..., Any]
     parameters: dict[str, Any]
     project: str | None = None
+    fit: bool = False
+    noise: str | None = None
+
+    @property
+    def function(self) -> Callable[..., Any]:
+        """The function from points to edges."""
+        from crustline.methods import METHODS
+        from crustline.projection import projected
+
+        function = METHODS[self.name]
+        return function if self.project is None else projected(function, self.project)
+
+    def reconstruction(self, delaunay: Delaunay) -> Reconstruction:
+        """Return what the method makes of points."""
+        from crustline.methods import METHODS
+        from crustline.reconstruction import Reconstruction
+
+        if not self.fit:
+            return Reconstruction(delaunay, self.function, **self.parameters)
+        noise = as_noise(self.noise, delaunay.points)
+        return Reconstruction(
+            delaunay, METHODS[self.name], fit=True, noise=noise, crs=self.project, **self.parameters
+        )
 
 
 def method_options(command: Command) -> Command:
@@ -54,6 +82,40 @@ def method_options(command: Command) -> Command:
     return run
 
 
+def fit_options(command: Command) -> Command:
+    """Give a command that takes `method: Method` --fit and --noise."""
+
+    @click.option("--fit", is_flag=True,
+                  help="Fit curves to noisy points, with new vertices: their rows, uncertainty and "
+                  "the outliers are written, too. Needs scipy.")  # fmt: skip
+    @click.option("--noise", metavar="N",
+                  help="With --fit, the standard deviation of the noise, or the column that has "
+                  "it, in the unit of the input or of --project; by default it is "
+                  "estimated.")  # fmt: skip
+    @functools.wraps(command)
+    def run(method: Method, fit: bool, noise: str | None, **rest: Any) -> None:
+        if noise is not None and not fit:
+            raise InputError("--noise is for --fit: add that")
+        command(method=replace(method, fit=fit, noise=noise), **rest)
+
+    return run
+
+
+def as_noise(text: str | None, points: Points) -> Any:
+    """Return the noise that an option gives: a number, or the column of that name."""
+    if text is None:
+        return None
+    if text in points.columns:
+        return points.columns[text]
+    try:
+        return float(text)
+    except ValueError:
+        has = f"choose from {quote_all(list(points.columns))}" if points.columns else "it has none"
+        raise InputError(
+            f"--noise {text!r:.40} is neither a number nor a column beside x and y: {has}"
+        ) from None
+
+
 def _matching(context: click.Context, option: click.Parameter, start: str) -> list[str]:
     from crustline.methods import METHODS
 
@@ -65,12 +127,10 @@ def as_method(
 ) -> Method:
     """Return the method of a name with its parameters, or refuse what it does not have."""
     from crustline.methods import METHODS, check_parameters
-    from crustline.projection import projected
 
     if name not in METHODS:
         raise InputError(f"no method is called {name!r}: choose one of {', '.join(METHODS)}")
-    function = METHODS[name] if project is None else projected(METHODS[name], project)
-    method = Method(name, function, dict(map(_setting, settings)), project)
+    method = Method(name, dict(map(_setting, settings)), project)
     if beta is not None:
         method.parameters["beta"] = beta
     check_parameters(method.function, method.parameters, name, "add -p {}=VALUE")

@@ -206,4 +206,5 @@ def _one_of(words: Sequence[str]) -> str:
 def counted(count: int, word: str) -> str:
     """Return a count and a word, in the plural if it must be: "1 branch", "1,200 branches"."""
     plural = f"{word}es" if word.endswith(("ch", "x")) else f"{word}s"
+    plural = plural.replace("vertexes", "vertices")
     return f"{count:,} {word if count == 1 else plural}"

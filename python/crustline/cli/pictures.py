@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from crustline.cli.method import Method, method_options
+from crustline.cli.method import Method, fit_options, method_options
 from crustline.cli.output import Output, counted, output_options, picture_options
 from crustline.cli.reconstruct import reconstruction
 from crustline.cli.source import Source, source_options
@@ -22,12 +22,14 @@ LAYERS = (
 @click.option("--show", default="points,crust", show_default=True, metavar="WORDS",
               help=f"What to draw, any of {', '.join(LAYERS)}.")  # fmt: skip
 @method_options
+@fit_options
 def plot(source: Source, output: Output, show: str, method: Method) -> None:
     """Draw points and what is computed from them.
 
     INPUT is a file of points; - is standard input. Writes a picture: `crust`
     is the curves that the method finds, `lfs` colors points by their local feature size, `indices`
-    numbers them. Needs matplotlib: pip install 'crustline[plot]'.
+    numbers them. With --fit it is the fitted curves, in a band as wide as they are uncertain.
+    Needs matplotlib: pip install 'crustline[plot]'.
 
     \b
         crustline plot goose.csv -o goose.png --show points,crust,medial-axis
@@ -57,6 +59,7 @@ def plot(source: Source, output: Output, show: str, method: Method) -> None:
     help="A point at which the curve turns by this or more is a corner.",
 )  # fmt: skip
 @method_options
+@fit_options
 def smooth(source: Source, output: Output, corner_angle: float, method: Method) -> None:
     """Draw smooth curves through points.
 

@@ -8,9 +8,10 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import click
+import numpy as np
 
 from crustline.cli.distributed import distributed_options
-from crustline.cli.method import Method, method_options
+from crustline.cli.method import Method, fit_options, method_options
 from crustline.cli.output import Output, counted, output_options
 from crustline.cli.progress import progress_bar
 from crustline.cli.source import Source, source_options
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
 @output_options("write_curves")
 @click.option("--by", metavar="COLUMN", help="Connect only points of equal value in a column.")
 @method_options
+@fit_options
 def reconstruct(source: Source, output: Output, by: str | None, method: Method) -> None:
     """Find the curves that points were sampled from.
 
@@ -38,6 +40,7 @@ def reconstruct(source: Source, output: Output, by: str | None, method: Method) 
 
     \b
         crustline reconstruct goose.csv -o goose.geojson -o goose.svg
+        crustline reconstruct tracks.csv --fit --noise accuracy -o path.geojson
     """
     with reconstruction(source, method, output.quiet, by) as made:
         counts = _count(made)
@@ -57,19 +60,29 @@ def reconstruction(
     from crustline.reconstruction import Reconstruction
 
     points = source.read()
+    _warn_of_degrees(source, points, method)
+    with progress_bar(quiet) as progress:
+        delaunay = Delaunay(points, threads=source.threads, progress=progress)
+        if by is None:
+            yield method.reconstruction(delaunay)
+        else:
+            _refuse_fit(method)
+            yield Reconstruction(delaunay, _grouped(points, by, method))
+
+
+def _warn_of_degrees(source: Source, points: Points, method: Method) -> None:
     if method.project is None and points.crs in ("EPSG:4326", "OGC:CRS84"):
         warnings.warn(
             f"{source.name}: longitudes and latitudes are taken for coordinates of the plane: "
             "add --project auto",
             FormatWarning,
-            stacklevel=2,
+            stacklevel=4,
         )
-    with progress_bar(quiet) as progress:
-        delaunay = Delaunay(points, threads=source.threads, progress=progress)
-        if by is None:
-            yield Reconstruction(delaunay, method.function, **method.parameters)
-        else:
-            yield Reconstruction(delaunay, _grouped(points, by, method))
+
+
+def _refuse_fit(method: Method) -> None:
+    if method.fit:
+        raise InputError("--by and --fit exclude each other: fit each group in a file of its own")
 
 
 def _grouped(points: Points, by: str, method: Method) -> Callable[[Delaunay], IntArray]:
@@ -83,19 +96,34 @@ def _grouped(points: Points, by: str, method: Method) -> Callable[[Delaunay], In
     return lambda delaunay: by_group(delaunay, groups, method.function, **method.parameters)
 
 
-def _count(made: Reconstruction) -> dict[str, int]:
+def _count(made: Reconstruction) -> dict[str, Any]:
     curves = made.curves
     rings = int(curves.closed.sum())
-    return {
-        "points": len(curves.points),
+    counts: dict[str, Any] = {
+        "points": len(made.points),
         "duplicates": len(made.delaunay.duplicates),
         "rings": rings,
         "open_curves": len(curves) - rings,
         "branches": len(curves.branches),
-        "isolated": len(curves.isolated),
+    }
+    if made.denoised is None:
+        return counts | {"isolated": len(curves.isolated)}
+    known = made.denoised.noise[np.isfinite(made.denoised.noise)]
+    return counts | {
+        "vertices": len(made.denoised.curves.points),
+        "outliers": len(made.denoised.outliers),
+        "unchanged_curves": int(made.denoised.unchanged.sum()),
+        "noise": float(np.median(known)) if len(known) else None,
     }
 
 
 def _in_words(counts: dict[str, Any]) -> str:
-    words = ("point", "duplicate", "ring", "open curve", "branch", "isolated point")
-    return ", ".join(map(counted, counts.values(), words))
+    words = {
+        "points": "point", "duplicates": "duplicate", "rings": "ring", "open_curves": "open curve",
+        "branches": "branch", "isolated": "isolated point", "vertices": "fitted vertex",
+        "outliers": "outlier", "unchanged_curves": "unchanged curve",
+    }  # fmt: skip
+    said = [counted(counts[key], word) for key, word in words.items() if key in counts]
+    if counts.get("noise"):
+        said.append(f"noise {counts['noise']:.3g}")
+    return ", ".join(said)

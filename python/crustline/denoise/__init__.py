@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,13 +13,18 @@ from crustline import _core
 from crustline.arrays import BoolArray, FloatArray, IntArray, as_floats
 from crustline.curves import Curves, trace
 from crustline.delaunay import Delaunay, as_delaunay
+from crustline.denoise.annotated import annotated
 from crustline.denoise.clean import clean_strands, rest
 from crustline.denoise.strand import ROWS, Strand, strands
 from crustline.errors import InputError, missing_extra
 from crustline.methods import as_method, connect
 from crustline.points import Points
+from crustline.projection import project
 from crustline.records import Record
 from crustline.scalars import as_real, as_size
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 __all__ = ["Denoised", "denoise"]
 
@@ -42,6 +48,8 @@ class Denoised(Record):
         from the curve; NaN where the points do not look like a curve.
     unchanged : ndarray of bool, shape (c,)
         The curves whose vertices are the points themselves, because there is no noise to speak of.
+    crs : str or None
+        The CRS in whose unit uncertainty and noise are, if it is another than that of the points.
     """
 
     points: Points
@@ -50,6 +58,7 @@ class Denoised(Record):
     vertices: IntArray
     noise: FloatArray
     unchanged: BoolArray
+    crs: str | None = None
 
     @property
     def outliers(self) -> IntArray:
@@ -59,6 +68,33 @@ class Denoised(Record):
     def rows(self, vertex: int) -> IntArray:
         """Return the rows that a vertex stands for, sorted."""
         return np.flatnonzero(self.vertices == vertex)
+
+    def annotated(self) -> Curves:
+        """Return the curves as files hold them: what is known of each vertex beside it.
+
+        Returns
+        -------
+        curves : Curves
+            The same curves. Their points are the vertices and, after them, the outliers, which are
+            isolated. Columns: ``input_rows``, the rows that a vertex stands for, with spaces
+            between; ``uncertainty``; and ``noise``, the mean of that of the rows. Heights are
+            such means, too. Between vertices that have rows means are linear. NaN is what is not
+            known, such as the uncertainty of an outlier. The CRS is kept; other columns are of
+            rows, not of vertices, and stay with ``points``.
+
+        Examples
+        --------
+        >>> line = denoise([(k, k % 2 / 3) for k in range(40)])
+        >>> line.annotated().points.columns["input_rows"][:3].tolist()
+        ['0', '1', '2 3']
+        """
+        return annotated(self.points, self.curves, self.vertices, self.uncertainty, self.noise)
+
+    def plot(self, ax: Axes | None = None, **options: Any) -> Axes:
+        """Draw the curves beside the points with matplotlib; see `crustline.plot.plot_denoised`."""
+        from crustline.plot import plot_denoised
+
+        return plot_denoised(self, ax, **options)
 
     def __repr__(self) -> str:
         rings = int(self.curves.closed.sum())
@@ -75,6 +111,7 @@ def denoise(
     *,
     noise: ArrayLike | None = None,
     method: Callable[..., ArrayLike] = connect,
+    crs: str | None = None,
 ) -> Denoised:
     """Return curves that pass near noisy points: rings, lines, several of them, and outliers aside.
 
@@ -94,6 +131,10 @@ def denoise(
         a column of accuracies. By default it is estimated around each point.
     method : callable, default `connect`
         Connects the points of the ridge: takes their triangulation and returns edges.
+    crs : str, optional
+        Fit in this coordinate reference system, in whose unit the noise then is, such as
+        "EPSG:25832", or "auto" for a map about the middle of the points in meters: see `project`.
+        The vertices come back in that of the points. By default coordinates are taken as they are.
 
     Returns
     -------
@@ -145,17 +186,28 @@ def denoise(
     method = as_method(method, {})
     delaunay = as_delaunay(points)
     _check(delaunay)
+    if crs is not None:
+        return _in_crs(delaunay, crs, noise=noise, method=method)
     given = None if noise is None else as_noise(noise, delaunay.points.xy)
     parts = clean_strands(delaunay, method) if given is None else []
     rows = np.flatnonzero(rest(delaunay, parts))
     if parts:
-        left = Delaunay(delaunay.points.xy[rows]) if len(rows) >= ROWS else None
+        left = delaunay.alike(delaunay.points.xy[rows]) if len(rows) >= ROWS else None
     else:
         left = delaunay
     if left is not None:
         ridge = _core.ridge(left._core, given, *delaunay._how)
         parts += [part.of_rows(rows) for part in strands(left, ridge, method)]
     return _assembled(delaunay.points, parts)
+
+
+def _in_crs(delaunay: Delaunay, crs: str, **how: Any) -> Denoised:
+    """Return what is found in another CRS, with the vertices in that of the points."""
+    flat = project(delaunay.points, crs)
+    found = denoise(delaunay.alike(flat), **how)
+    at = project(Points(found.curves.points.xy, crs=flat.crs), str(delaunay.points.crs))
+    curves = replace(found.curves, points=at)
+    return replace(found, points=delaunay.points, curves=curves, crs=flat.crs)
 
 
 def as_noise(noise: ArrayLike, points: FloatArray) -> FloatArray:
@@ -206,7 +258,11 @@ def _assembled(points: Points, parts: list[Strand]) -> Denoised:
     offsets = np.cumsum([0, *(len(part.vertices) for part in parts)])
     edges = [part.edges + offset for part, offset in zip(parts, offsets, strict=False)]
     at = [part.vertices for part in parts]
-    curves = trace(np.vstack(at or [np.empty((0, 2))]), np.vstack(edges or [np.empty((0, 2), int)]))
+    xy = np.vstack(at or [np.empty((0, 2))])
+    curves = trace(
+        Points(xy, crs=points.crs, names=points.names),
+        np.vstack(edges or [np.empty((0, 2), np.int64)]),
+    )
     vertices, noise = np.full(len(points), -1), np.full(len(points), np.nan)
     for part, offset in zip(parts, offsets, strict=False):
         vertices[part.rows] = part.owners + offset

@@ -74,7 +74,7 @@ def strands(
     ridge = _of_rows(delaunay, found)
     if len(ridge.at) < 2:
         return []
-    curves = trace(ridge.at, method(Delaunay(ridge.at)))
+    curves = trace(ridge.at, method(delaunay.alike(ridge.at)))
     bounds = zip(curves.offsets[:-1], curves.offsets[1:], curves.closed, strict=True)
     parts = [(curves.indices[a:b], bool(closed)) for a, b, closed in bounds]
     parts = [part for part in parts if len(part[0]) >= CRESTS or ridge.still[part[0]].all()]

@@ -13,6 +13,7 @@ from crustline.plot.axes import BLACK, BLUE, GRAY, GREEN, ORANGE, PURPLE, SKY, V
 from crustline.plot.certificate import plot_certificate
 from crustline.plot.curves import plot_curves, plot_edges
 from crustline.plot.delaunay import plot_delaunay, plot_voronoi
+from crustline.plot.denoised import plot_denoised
 from crustline.plot.medial_axis import plot_medial_axis
 from crustline.plot.picture import LAYERS, picture
 from crustline.plot.points import plot_indices, plot_local_feature_size, plot_points
@@ -31,6 +32,7 @@ __all__ = [
     "plot_certificate",
     "plot_curves",
     "plot_delaunay",
+    "plot_denoised",
     "plot_edges",
     "plot_indices",
     "plot_local_feature_size",

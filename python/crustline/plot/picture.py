@@ -17,6 +17,7 @@ from crustline.plot.axes import (
 from crustline.plot.certificate import plot_certificate
 from crustline.plot.curves import plot_curves
 from crustline.plot.delaunay import plot_delaunay, plot_voronoi
+from crustline.plot.denoised import plot_denoised
 from crustline.plot.medial_axis import plot_medial_axis
 from crustline.plot.points import plot_indices, plot_local_feature_size, plot_points
 from crustline.reconstruction import Reconstruction, as_reconstruction
@@ -31,9 +32,13 @@ LAYERS: dict[str, Callable[[Reconstruction, Axes], Axes]] = {
     "delaunay": lambda made, ax: plot_delaunay(made.delaunay, ax, points=False),
     "voronoi": lambda made, ax: plot_voronoi(made.delaunay, ax, points=False),
     "medial-axis": lambda made, ax: plot_medial_axis(made.medial_axis, ax),
-    "crust": lambda made, ax: plot_curves(made.curves, ax, points=False),
+    "crust": lambda made, ax: (
+        plot_curves(made.curves, ax, points=False)
+        if made.denoised is None
+        else plot_denoised(made.denoised, ax, points=False)
+    ),
     "certificate": lambda made, ax: plot_certificate(made.certificate, ax, points=False),
-    "lfs": lambda made, ax: plot_local_feature_size(made.points, made.local_feature_size, ax),
+    "lfs": lambda made, ax: plot_local_feature_size(made.vertices, made.local_feature_size, ax),
     "points": lambda made, ax: plot_points(made.points, ax),
     "indices": lambda made, ax: plot_indices(made.points, ax),
 }
