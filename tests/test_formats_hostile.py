@@ -173,7 +173,7 @@ def test_a_device_without_end_is_refused() -> None:
     with open("/dev/zero", "rb") as file:
         run = subprocess.run(
             [sys.executable, "-c", "import crustline; crustline.read('-')"],
-            stdin=file, capture_output=True, text=True, timeout=50, check=False,
+            stdin=file, capture_output=True, text=True, timeout=600, check=False,
         )  # fmt: skip
     assert "standard input cannot be read: it is a device" in run.stderr
 

@@ -18,7 +18,7 @@ from crustline import shapes
 from hostile import Call
 
 #: A call that takes longer is shown where it is, and the run ends.
-HANGS = 120
+HANGS = 600
 
 
 @pytest.fixture(autouse=True)

@@ -12,7 +12,7 @@ import pytest
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="the system cannot fork")
 
 #: Longer than any of these takes; only a deadlock is stopped by it.
-DEADLOCK = 120
+DEADLOCK = 600
 
 PARENT = """
 import concurrent.futures, multiprocessing, os, sys
@@ -63,6 +63,7 @@ found = [eval(os.read(reader, 100).decode()) for reader in children]
     "joblib": """
 import joblib
 found = joblib.Parallel(2, backend="multiprocessing")(joblib.delayed(work)(k) for k in (None, 1))
+found += joblib.Parallel(2)(joblib.delayed(work)(k) for k in (None, 1))
 """,
 }
 
@@ -88,8 +89,6 @@ def run(script: str, *arguments: str, **environment: str) -> subprocess.Complete
 @pytest.mark.parametrize("how", FORKS)
 @pytest.mark.parametrize("threads", ["", "1"])
 def test_a_forked_process_works_as_its_parent_does(how: str, threads: str) -> None:
-    if how == "joblib":
-        pytest.importorskip("joblib")
     environment = {"RAYON_NUM_THREADS": threads} if threads else {}
     done = run(f"{PARENT}{FORKS[how]}\nassert set(found) == {{expected}}, found", **environment)
     assert done.returncode == 0, done.stderr
@@ -103,6 +102,7 @@ def test_a_process_that_forks_before_it_works() -> None:
 
 COUNT = """
 import crustline as cl, numpy as np
+cl.Delaunay, cl.InputError  # are imported here, while there is memory
 points = np.random.default_rng(1).random((20_000, 2))
 """
 
@@ -185,3 +185,32 @@ def test_memory_that_is_not_there_is_an_error_and_not_the_end_of_the_process(roo
         assert all("MB of memory are needed" in line or "allocate" in line for line in told)
     if room == 400:
         assert all(line.endswith(" done") for line in told)
+
+
+# Eight of each at once, on sets of many sizes; every answer is that of a call by itself.
+CROWD = """
+import concurrent.futures, multiprocessing, sys
+import numpy as np
+import crustline as cl
+rng = np.random.default_rng(1)
+sets = [rng.random((n, 2)) for n in (3, 10, 100, 1_000, 3_000, 10_000)] * 4
+def work(points):
+    delaunay = cl.Delaunay(points)
+    edges = cl.crust(delaunay)
+    return cl.medial_axis(delaunay, edges).vertices.sum(), edges.sum(), len(cl.certify(few).edges)
+few = sets[2]
+expected = [work(points) for points in sets]
+if sys.argv[1] == "threads":
+    crowd = concurrent.futures.ThreadPoolExecutor(8)
+else:
+    fork = multiprocessing.get_context("fork")
+    crowd = concurrent.futures.ProcessPoolExecutor(8, mp_context=fork)
+with crowd:
+    assert list(crowd.map(work, sets)) == expected
+"""
+
+
+@pytest.mark.parametrize("kind", ["threads", "processes"])
+def test_eight_at_once_answer_as_one_does(kind: str) -> None:
+    done = run(CROWD, kind)
+    assert done.returncode == 0, done.stderr

@@ -105,6 +105,10 @@ class _Package(ModuleType):
         if not (isinstance(value, ModuleType) and name in _HOMES):
             super().__setattr__(name, value)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # As modules have it of joblib and Dask, which send functions with what they use.
+        return import_module, (self.__name__,)
+
     def __dir__(self) -> list[str]:
         """List the public names, and not the modules that they come from."""
         return __all__

@@ -23,7 +23,7 @@ Trial = Callable[[int], str | None]
 
 SECONDS, ROOM = 5.0, 1 << 30
 #: Seconds of no work at all after which a trial is taken to wait for ever, on a busy machine too.
-DEADLOCK = 120.0
+DEADLOCK = 600.0
 _PAUSE = 0.05
 
 
