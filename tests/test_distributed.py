@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -22,7 +23,7 @@ from distributed import Client, LocalCluster
 from pyarrow import parquet
 
 from crustline.cli import main
-from crustline.distributed import Result, partition, reconstruct
+from crustline.distributed import Result, partition, reconstruct, run
 from crustline.distributed.cuts import cut
 from crustline.distributed.sight import without
 
@@ -34,6 +35,12 @@ def client():
         processes=False, n_workers=1, threads_per_worker=1, dashboard_address=None
     ) as opened:
         yield opened
+
+
+@pytest.fixture(autouse=True)
+def pieces_are_small(monkeypatch):
+    """Else each file of these small inputs would be one piece."""
+    monkeypatch.setattr(run, "_PIECE", 1)
 
 
 def circles(count, random):
@@ -269,6 +276,33 @@ def test_a_run_goes_on_where_it_was_stopped(client, tmp_path, stage):
     damaged.write_bytes(content)
     agrees(reconstruct(source, tmp_path / "out", **options), xy)
     assert not list((tmp_path / "out").rglob("*.part"))
+
+
+def test_too_little_room_on_disk_is_said_before_the_work(client, tmp_path, monkeypatch):
+    source = put(tmp_path / "in", coast(300, np.random.default_rng(24)))
+    full = shutil.disk_usage(tmp_path)._replace(free=20_000)
+    monkeypatch.setattr(shutil, "disk_usage", lambda folder: full)
+    with pytest.raises(cl.InputError, match="make room or give another folder"):
+        reconstruct(source, tmp_path / "out", client=client, tile_points=100)
+    monkeypatch.undo()
+    assert reconstruct(source, tmp_path / "out", client=client, tile_points=100).counts["rows"]
+
+
+def test_the_report_in_lines_says_what_was_seen_and_left_open(client, tmp_path):
+    xy = arcs(500, np.random.default_rng(25))
+    source = put(tmp_path / "in", xy)
+    result = cl.distributed.reconstruct(
+        source, tmp_path / "out", client=client, tile_points=60, halo=0, rounds=1
+    )
+    tiles, openness, processors, files = result.summary().splitlines()
+    assert tiles.startswith(f"tiles: {result.counts['tiles']} of 500 points; 0 more seen")
+    stages = result.report["stages"]
+    left = stages["tiles"]["open_vertices"] + stages["tiles"]["open_edges"]
+    assert left
+    assert f"open: {left} after the tiles" in openness
+    assert all(stage["files"] <= stage["cpu"] + 0.01 for stage in stages.values())
+    assert "s for files" in processors
+    assert "MB written" in files
 
 
 def test_another_run_in_the_folder_is_refused(client, tmp_path):

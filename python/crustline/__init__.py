@@ -13,7 +13,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from crustline import shapes, theory
+    from crustline import distributed, shapes, theory
     from crustline._core import __version__
     from crustline.certify import Certificate, certify
     from crustline.curves import Curve, Curves, Polygon, trace
@@ -92,7 +92,7 @@ class _Package(ModuleType):
     """Imports a public name's module when the name is first asked for, so that `import` is fast."""
 
     def __getattr__(self, name: str) -> Any:
-        if name in ("shapes", "theory"):
+        if name in ("distributed", "shapes", "theory"):
             return import_module(f"crustline.{name}")
         if name not in _HOMES:
             raise AttributeError(f"module 'crustline' has no attribute {name!r}")
@@ -149,6 +149,7 @@ __all__ = [
     "crossing_angle_graph",
     "crust",
     "denoise",
+    "distributed",
     "gabriel",
     "gamma_graph",
     "gathan",

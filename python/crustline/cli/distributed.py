@@ -96,3 +96,5 @@ def _say(result: Result, about: dict[str, Any], options: dict[str, Any]) -> None
         words = ", ".join(counted(counts[key], word) for word, key in parts.items())
         end = f"{about['seconds']:.2f} s; wrote {options['files'][0]}"
         click.echo(f"{about['input']}: {words}, by {about['method']}; {end}", err=True)
+        if options.get("verbose"):
+            click.echo(result.summary(), err=True)

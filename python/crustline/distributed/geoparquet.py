@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from crustline.arrays import BoolArray, FloatArray, IntArray
+from crustline.distributed.store import write_batches
 
 _LINE, _POINT = 2, 1
 
@@ -52,11 +53,7 @@ class Ragged:
 
 def write_curves(path: Path, parts: Iterable[Ragged], crs: Any) -> None:
     """Write curves to a file, a row group for each part."""
-    from pyarrow import parquet
-
-    with parquet.ParquetWriter(path, _schema(crs), write_page_checksum=True) as writer:
-        for part in parts:
-            writer.write_batch(table_of(part, crs))
+    write_batches(path, _schema(crs), (table_of(part, crs) for part in parts))
 
 
 def table_of(curves: Ragged, crs: Any) -> Any:

@@ -11,7 +11,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from crustline.distributed.store import Written
+from crustline.distributed.store import Written, file_seconds
 
 Step = Callable[..., tuple[list[Written], dict[str, Any]]]
 """Reads files of the run's folder and writes one or a few; returns them, and some counts."""
@@ -30,7 +30,8 @@ class Done:
     counts : dict
         What it counted, as JSON can hold it.
     cost : dict
-        Seconds (`wall`, `cpu`), bytes of memory of its process at most (`peak`), and where it ran.
+        Seconds (`wall`, `cpu`, and of these in reading and writing `files`), bytes of memory of its
+        process at most (`peak`), and where it ran (`process`).
     """
 
     stage: str
@@ -46,11 +47,12 @@ def perform(
     """Do a step, unless what it wrote before is there, undamaged."""
     if before is not None and is_intact(before, folder):
         return before
-    wall, cpu = time.perf_counter(), time.process_time()
+    wall, cpu, on_files = time.perf_counter(), time.process_time(), file_seconds()
     files, counts = step(Path(folder), **arguments)
     cost = {
         "wall": time.perf_counter() - wall,
         "cpu": time.process_time() - cpu,
+        "files": file_seconds() - on_files,
         "peak": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024,
         "process": f"{os.uname().nodename}:{os.getpid()}",
     }

@@ -7,7 +7,7 @@ costs its step and nothing else, where a shuffle between workers would start aga
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -45,12 +45,12 @@ def read(
 
     def records() -> Iterator[Arrays]:
         nonlocal count
-        for xy in unit.pieces(piece):
-            count += len(xy)
+        pieces = ({"xy": xy} for xy in unit.pieces(piece))
+        for waiting in batched(pieces, piece):
             # Adding 0.0 makes one of the two zeros.
-            xy = xy + 0.0
+            xy = together(waiting, {"xy": np.empty((0, 2))})["xy"] + 0.0
+            count += len(xy)
             yield {"xy": xy, "sample": xy[_sample(len(xy), step, random)]}
-        yield {"xy": np.empty((0, 2)), "sample": np.empty((0, 2))}
 
     written = write_records(folder, f"work/read/{number:06}.arrow", records())
     return [written], {"count": count}
@@ -78,7 +78,7 @@ def cuts_in(folder: Path, path: str) -> Cuts:
 
 
 def scatter(folder: Path, number: int, unit: str, cuts: str, first_row: int) -> Any:
-    """Sort the rows of each piece of a unit by tile: a record for each piece and tile."""
+    """Sort the rows of each piece of a unit by tile, and note where each tile's end."""
     tree = cuts_in(folder, cuts)
     counts = np.zeros(tree.leaves, np.int64)
 
@@ -89,10 +89,7 @@ def scatter(folder: Path, number: int, unit: str, cuts: str, first_row: int) -> 
             leaf = tree.leaf_of(xy)
             sizes = np.bincount(leaf, minlength=tree.leaves)
             order = np.argsort(leaf.astype(np.uint32), kind="stable")
-            ends = np.cumsum(sizes)
-            for start, end in zip(ends - sizes, ends, strict=True):
-                rows = order[start:end]
-                yield {"xy": xy[rows], "row": row + rows}
+            yield {"xy": xy[order], "row": row + order, "ends": np.cumsum(sizes)}
             counts[:] += sizes
             row += len(xy)
 
@@ -127,35 +124,43 @@ def _cut_again(
 ) -> Cuts:
     for leaf in full[::-1].tolist():
         step = max(1, tile_points // SAMPLE)
-        parts = [
-            fragment["xy"][::step] for fragment in fragments(folder, scattered, leaf, tree.leaves)
-        ]
+        parts = [fragment["xy"][::step] for fragment in fragments(folder, scattered, leaf)]
         sample = np.concatenate(parts)
         weights = np.full(len(sample), counts[leaf] / len(sample))
         tree = tree.grafted(leaf, cut(sample, weights, tile_points))
     return tree
 
 
-def fragments(folder: Path, scattered: list[str], tile: int, tiles: int) -> Iterator[Arrays]:
+def fragments(folder: Path, scattered: list[str], tile: int) -> Iterator[Arrays]:
     """Return the points of a tile, piece by piece, in the order of their rows."""
     for path in scattered:
-        records = Records(folder / path)
-        for k in range(tile, len(records), tiles):
-            yield records[k]
+        # Mapped, as of each piece only a tile's part is read.
+        for record in Records(folder / path, mapped=True):
+            ends = record["ends"]
+            part = slice(ends[tile - 1] if tile else 0, ends[tile])
+            yield {name: record[name][part] for name in _POINTS}
 
 
-def gather(folder: Path, tile: int, scattered: list[str], tiles: int, tile_points: int) -> Any:
+def batched(records: Iterable[Arrays], points: int) -> Iterator[list[Arrays]]:
+    """Yield records in lists that hold about so many points, at least one list."""
+    waiting: list[Arrays] = []
+    count = 0
+    for record in records:
+        if count >= points:
+            yield waiting
+            waiting, count = [], 0
+        waiting.append(record)
+        count += len(record["xy"])
+    yield waiting
+
+
+def gather(folder: Path, tile: int, scattered: list[str], tile_points: int) -> Any:
     """Collect a tile: its distinct points in groups along the Z-order curve, and its duplicates."""
     found = _Distinct()
 
     def duplicates() -> Iterator[IntArray]:
-        waiting: list[Arrays] = []
-        for fragment in fragments(folder, scattered, tile, tiles):
-            waiting.append(fragment)
-            if sum(len(each["row"]) for each in waiting) > tile_points:
-                yield found.add(waiting)
-                waiting = []
-        yield found.add(waiting)
+        for waiting in batched(fragments(folder, scattered, tile), tile_points):
+            yield found.add(waiting)
 
     path = f"duplicates/part-{tile:06}.parquet"
     repeated = write(folder, path, lambda part: write_pairs(part, ("row", "first"), duplicates()))
@@ -186,7 +191,9 @@ class _Distinct:
         first, duplicates = _core.z_order(points["xy"])
         kept = np.sort(first)
         self.points = {name: array[kept] for name, array in points.items()}
-        self.order = np.searchsorted(kept, first)
+        rank = np.empty(len(points["row"]), np.int64)
+        rank[kept] = np.arange(len(kept))
+        self.order = rank[first]
         self.repeated += len(duplicates)
         return points["row"][duplicates]
 

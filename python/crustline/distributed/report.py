@@ -1,4 +1,4 @@
-"""What a run took: by stage and by worker."""
+"""What a run took: by stage and by worker, as JSON and in a few lines."""
 
 from __future__ import annotations
 
@@ -36,6 +36,7 @@ def _summed(steps: list[Done]) -> dict[str, Any]:
         "steps": len(steps),
         "wall": round(sum(each.cost["wall"] for each in steps), 3),
         "cpu": round(sum(each.cost["cpu"] for each in steps), 3),
+        "files": round(sum(each.cost["files"] for each in steps), 3),
         "bytes": sum(file.size for each in steps for file in each.files),
     }
     for each in steps:
@@ -48,3 +49,33 @@ def _summed(steps: list[Done]) -> dict[str, Any]:
                 for k, count in enumerate(value):
                     held[k] += count
     return sums
+
+
+def in_lines(report: dict[str, Any]) -> list[str]:
+    """Return a report in a few lines: what was seen and left open, time, files, memory."""
+    counts, stages = report["counts"], report["stages"]
+    rows = counts["rows"] - counts["duplicates"]
+    tiles, rounds = stages["tiles"], stages.get("rounds", {})
+    seconds = {name: stage["cpu"] for name, stage in stages.items()}
+    on_files = sum(stage["files"] for stage in stages.values())
+    slowest = sorted(seconds, key=seconds.__getitem__, reverse=True)[:3]
+    peak = max(report["peak_memory"].values())
+    return [
+        f"tiles: {tiles['steps']:,} of {rows:,} points; "
+        f"{tiles['halo']:,} more seen around them ({tiles['halo'] / max(1, rows):.2%})",
+        f"open: {_open(tiles):,} after the tiles, {_open(rounds):,} after "
+        f"{len(rounds.get('open', []))} rounds; {_coordinated(stages)} in one place",
+        f"processors: {sum(seconds.values()):.1f} s, of it {on_files:.1f} s for files; "
+        f"most in {', '.join(f'{name} ({seconds[name]:.1f} s)' for name in slowest)}",
+        f"files: {sum(stage['bytes'] for stage in stages.values()) / 1e6:,.1f} MB written; "
+        f"memory: {peak / 1e6:,.0f} MB at most in each of {len(report['peak_memory'])} processes",
+    ]
+
+
+def _open(stage: dict[str, Any]) -> int:
+    return int(stage.get("open_vertices", 0)) + int(stage.get("open_edges", 0))
+
+
+def _coordinated(stages: dict[str, Any]) -> str:
+    points = stages.get("coordinator", {}).get("points", 0)
+    return f"{points:,} points"

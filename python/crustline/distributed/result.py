@@ -12,6 +12,7 @@ import numpy as np
 
 from crustline.arrays import IntArray
 from crustline.distributed.geoparquet import Ragged, table_of
+from crustline.distributed.report import in_lines
 from crustline.distributed.stitch import materialize
 from crustline.errors import InputError
 
@@ -91,6 +92,10 @@ class Result:
             if len(rows) > 1
         ]
         return sorted(found, key=lambda each: each[0].tolist())
+
+    def summary(self) -> str:
+        """Return what the run took in a few lines: points seen, open, time, files, memory."""
+        return "\n".join(in_lines(self.report))
 
     def __repr__(self) -> str:
         edges, curves, rows = (f"{self.counts[name]:,}" for name in ("edges", "curves", "rows"))

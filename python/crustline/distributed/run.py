@@ -21,14 +21,19 @@ from crustline.distributed.cluster import Crew
 from crustline.distributed.ledger import Done, Ledger, Step, is_intact, perform
 from crustline.distributed.rules import Rule
 from crustline.distributed.sources import Frame, Input
-from crustline.distributed.store import clean, write
+from crustline.distributed.store import check_room, clean, write
 from crustline.errors import CrustlineError, InputError
 
 Progress = Callable[[str, float], object]
 Arguments = dict[str, Any]
 
+#: The least points of a piece: each tile takes its part of every piece, however small it is.
+_PIECE = 50_000
 #: How many files of chains one step joins.
 _FAN_IN = 64
+#: What the files of a run take at most beside the copy of the coordinates, for each point: while
+#: tiles are gathered twice 24 bytes, at the end some 35 of the result and 33 of the tiles.
+_BYTES = 70
 
 
 @dataclass(frozen=True)
@@ -138,6 +143,7 @@ def _scatter_and_gather(run: Run, given: Input, settings: Settings) -> None:
     read = run.stage("read", partition.read, _units(run, given, size))
     files = [each.files[0].path for each in read]
     first_rows = np.cumsum([0, *(each.counts["count"] for each in read)]).tolist()
+    check_room(run.folder, _BYTES * first_rows[-1])
     planned = run.one("plan", partition.plan, units=files, tile_points=size)
     generation, cuts, tiles = 0, planned.files[0].path, planned.counts["tiles"]
     while True:
@@ -156,7 +162,7 @@ def _scatter_and_gather(run: Run, given: Input, settings: Settings) -> None:
         if balanced.counts["tiles"] == tiles:
             break
         generation, cuts, tiles = generation + 1, balanced.files[0].path, balanced.counts["tiles"]
-    about = {"scattered": paths, "tiles": tiles, "tile_points": size}
+    about = {"scattered": paths, "tile_points": size}
     run.stage("gather", partition.gather, {t: {"tile": t} | about for t in range(tiles)})
     run.one("atlas", partition.atlas, tiles=tiles)
     for folder in run.folder.glob("work/*"):
@@ -168,7 +174,8 @@ def _units(run: Run, given: Input, size: int) -> dict[int, Arguments]:
     """Return what each unit is read with; the partition of a frame comes as a future."""
     arguments: dict[int, Arguments] = {}
     for number, unit in enumerate(given.units):
-        arguments[number] = {"number": number, "unit": unit, "piece": size, "tile_points": size}
+        arguments[number] = {"number": number, "unit": unit, "tile_points": size}
+        arguments[number]["piece"] = max(size, _PIECE)
         if isinstance(unit, Frame):
             arguments[number] |= {
                 "unit": replace(unit, frame=None),

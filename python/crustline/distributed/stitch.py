@@ -73,10 +73,16 @@ def _graph(folder: Path, tile: int, files: Iterable[str]) -> _Graph:
     return _Graph(
         np.concatenate([points["row"], foreign]),
         np.concatenate([points["xy"], across["places"][mine, 2:][firsts]]),
-        np.unique(np.concatenate([own, bridges]), axis=0),
+        _sorted(np.concatenate([own, bridges]), count + len(foreign)),
         flags,
         degrees,
     )
+
+
+def _sorted(edges: IntArray, vertices: int) -> IntArray:
+    """Return pairs of vertices, each once, sorted: as one number each, which is far quicker."""
+    keys = np.sort(edges[:, 0] * vertices + edges[:, 1])
+    return np.stack(np.divmod(keys[np.diff(keys, prepend=-1) > 0], vertices), axis=1)
 
 
 def _edges_of(folder: Path, tile: int, files: Iterable[str]) -> Arrays:

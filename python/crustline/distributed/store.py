@@ -7,9 +7,13 @@ others.
 from __future__ import annotations
 
 import hashlib
+import itertools
 import os
+import threading
+import time
 import uuid
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -25,6 +29,29 @@ Arrays = dict[str, Array]
 
 #: Ends the names of files that are being written.
 PART = ".part"
+
+
+class _Meter(threading.local):
+    """What this thread's work on files has taken."""
+
+    seconds = 0.0
+
+
+_meter = _Meter()
+
+
+@contextmanager
+def _on_files() -> Iterator[None]:
+    start = time.process_time()
+    try:
+        yield
+    finally:
+        _meter.seconds += time.process_time() - start
+
+
+def file_seconds() -> float:
+    """Return how many seconds of processors this thread has spent in reading and writing files."""
+    return _meter.seconds
 
 
 @dataclass(frozen=True)
@@ -69,7 +96,7 @@ def clean(folder: Path) -> None:
 
 
 def _digest(path: Path) -> str:
-    with path.open("rb") as file:
+    with _on_files(), path.open("rb") as file:
         return hashlib.file_digest(file, lambda: hashlib.blake2b(digest_size=16)).hexdigest()
 
 
@@ -84,9 +111,9 @@ def _write_records(path: Path, records: Iterator[Arrays]) -> None:
     first = next(records)
     schema = pa.schema([_field(name, array) for name, array in first.items()])
     with pa.OSFile(str(path), "wb") as file, pa.ipc.new_file(file, schema) as writer:
-        writer.write_batch(_batch(first, schema))
-        for record in records:
-            writer.write_batch(_batch(record, schema))
+        for record in itertools.chain([first], records):
+            with _on_files():
+                writer.write_batch(_batch(record, schema))
 
 
 def _field(name: str, array: Array) -> Any:
@@ -112,17 +139,23 @@ def _batch(record: Arrays, schema: Any) -> Any:
 
 
 class Records(Sequence[Arrays]):
-    """The records of a file; each is read when it is asked for, only the `names` if given."""
+    """The records of a file; each is read when it is asked for, only the `names` if given.
 
-    def __init__(self, path: Path, names: Sequence[str] | None = None) -> None:
+    Of a `mapped` file only what is used of a record is read.
+    """
+
+    def __init__(
+        self, path: Path, names: Sequence[str] | None = None, mapped: bool = False
+    ) -> None:
         import pyarrow as pa
 
         try:
-            source = pa.OSFile(str(path))
-            schema = pa.ipc.open_file(source).schema
-            wanted = range(len(schema)) if names is None else map(schema.get_field_index, names)
-            options = pa.ipc.IpcReadOptions(included_fields=list(wanted))
-            self._file = pa.ipc.open_file(source, options=options)
+            with _on_files():
+                source = pa.memory_map(str(path)) if mapped else pa.OSFile(str(path))
+                schema = pa.ipc.open_file(source).schema
+                wanted = range(len(schema)) if names is None else map(schema.get_field_index, names)
+                options = pa.ipc.IpcReadOptions(included_fields=list(wanted))
+                self._file = pa.ipc.open_file(source, options=options)
         except (OSError, pa.ArrowInvalid) as error:
             message = f"{path} is damaged or gone ({error}): run again with resume"
             raise CrustlineError(message) from None
@@ -133,8 +166,9 @@ class Records(Sequence[Arrays]):
     def __getitem__(self, key: Any) -> Any:
         if isinstance(key, slice):
             return [self[k] for k in range(len(self))[key]]
-        batch = self._file.get_batch(range(len(self))[key])
-        return {field.name: _array(batch[field.name], field) for field in batch.schema}
+        with _on_files():
+            batch = self._file.get_batch(range(len(self))[key])
+            return {field.name: _array(batch[field.name], field) for field in batch.schema}
 
 
 def _array(column: Any, field: Any) -> Array:
@@ -151,16 +185,23 @@ def together(records: Iterable[Arrays], empty: Arrays) -> Arrays:
     return {name: np.concatenate([part[name] for part in parts]) for name in empty}
 
 
+def write_batches(path: Path, schema: Any, batches: Iterable[Any]) -> None:
+    """Write a Parquet file, a row group for each record batch."""
+    from pyarrow import parquet
+
+    with parquet.ParquetWriter(path, schema, write_page_checksum=True) as writer:
+        for batch in batches:
+            with _on_files():
+                writer.write_batch(batch)
+
+
 def write_pairs(path: Path, names: tuple[str, str], parts: Iterable[IntArray]) -> None:
     """Write a Parquet file of two columns of int64, a row group for each part (k, 2)."""
     import pyarrow as pa
-    from pyarrow import parquet
 
     schema = pa.schema([(name, pa.int64()) for name in names])
-    with parquet.ParquetWriter(path, schema, write_page_checksum=True) as writer:
-        for part in parts:
-            columns = [pa.array(np.ascontiguousarray(part[:, k])) for k in (0, 1)]
-            writer.write_table(pa.table(columns, schema=schema))
+    columns = ([pa.array(np.ascontiguousarray(part[:, k])) for k in (0, 1)] for part in parts)
+    write_batches(path, schema, (pa.record_batch(each, schema=schema) for each in columns))
 
 
 def check_room(folder: Path, needed: int) -> None:
