@@ -75,9 +75,9 @@ format: build ## Format both languages.
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-bench: build ## Time crustline against its rivals; writes docs/benchmarks.md (tens of minutes).
+bench: build ## Time crustline against its rivals, FAMILIES="curves uniform" or all (most of an hour); writes docs/benchmarks.md.
 	$(PIP) -r benchmarks/requirements.txt
-	$(BIN)/python -m benchmarks.run
+	$(BIN)/python -m benchmarks.run $(FAMILIES)
 
 accuracy: build ## Measure how often methods are right, on CASES=FOLDER too; writes docs/accuracy.md.
 	$(PIP) -r benchmarks/requirements.txt
@@ -87,7 +87,7 @@ bench-quick: build ## The same in under a minute, to the terminal.
 	$(PIP) -r benchmarks/requirements.txt
 	$(BIN)/python -m benchmarks.run --quick
 
-bench-instructions: ## Count instructions with callgrind and and bytes, and fail past 2 % more than stored.
+bench-instructions: ## Count instructions with callgrind and bytes with dhat, and fail past 2 % more than stored.
 	$(PYTHON) -m benchmarks.instructions
 
 # What cargo-fuzz would pass, so that a stable toolchain serves.

@@ -3,7 +3,11 @@
 Runs the core's example `crust_once` under callgrind and under dhat, on one thread, and fails if a
 count is more than 2 % above the one stored in instructions.json; `--update` stores the counts anew.
 The crust is counted with its triangulation and the points' making, the medial axis and the
-certificate without: what they add to the crust. Bytes are the most that are allocated at one time.
+certificate without: what they add to the crust.
+
+Bytes are the most that are allocated at one time, and are counted for two numbers of points: what
+the larger set takes more is bytes a point, and the rest of what the smaller set takes is what a
+thread holds for its leaves, however many points there are.
 """
 
 import argparse
@@ -16,7 +20,7 @@ from pathlib import Path
 HERE = Path(__file__).parent
 STORED = HERE / "instructions.json"
 TOLERANCE = 0.02
-N = 20_000
+N, MORE = 20_000, 60_000
 DISTRIBUTIONS = {
     "crust": ("uniform", "curves", "lattice", "circle"),
     "axis": ("uniform", "curves"),
@@ -39,28 +43,40 @@ def build_example() -> str:
     return str(next(m["executable"] for m in messages if m.get("executable")))
 
 
-def report(tool: tuple[str, ...], before: str, program: str, *arguments: str) -> int:
-    """Run the program under a tool, and return the number that it reports after `before`."""
-    command = (*tool, program, *arguments)
+def report(tool: tuple[str, ...], before: str, *command: str) -> int:
+    """Run a program under a tool, and return the number that it reports after `before`."""
     environment = os.environ | {"RAYON_NUM_THREADS": "1"}
-    done = subprocess.run(command, env=environment, check=True, capture_output=True, text=True)
+    done = subprocess.run(
+        (*tool, *command), env=environment, check=True, capture_output=True, text=True
+    )
     return int(done.stderr.rpartition(before)[2].split()[0].replace(",", ""))
 
 
-def counts(program: str) -> dict[str, int]:
+def instructions(program: str, name: str, work: str) -> int:
+    return report(CALLGRIND, "Collected : ", program, name, str(N), "1", work)
+
+
+def peak(program: str, name: str, work: str) -> tuple[float, int]:
+    """Return the bytes a point at the peak, and the bytes that any number of points take."""
+    few, many = (report(DHAT, "At t-gmax: ", program, name, str(n), "1", work) for n in (N, MORE))
+    each = (many - few) / (MORE - N)
+    return round(each, 2), round(few - N * each)
+
+
+def counts(program: str) -> dict[str, float]:
     """Return all counts by what is counted: the work, the distribution, the unit."""
-    found: dict[str, int] = {}
+    found: dict[str, float] = {}
     for work, distributions in DISTRIBUTIONS.items():
         for name in distributions:
-            asked = (name, str(N), "1", work)
-            instructions = report(CALLGRIND, "Collected : ", program, *asked)
-            own = instructions - found.get(f"crust {name} instructions", 0)
+            own = instructions(program, name, work) - found.get(f"crust {name} instructions", 0)
             found[f"{work} {name} instructions"] = own
-            found[f"{work} {name} bytes"] = report(DHAT, "At t-gmax: ", program, *asked)
+            each, rest = peak(program, name, work)
+            found[f"{work} {name} bytes a point"] = each
+            found[f"{work} {name} bytes beside"] = rest
     return found
 
 
-def is_regression(case: str, counted: int, stored: int | None) -> bool:
+def is_regression(case: str, counted: float, stored: float | None) -> bool:
     """Print a line for one case, and return whether its count grew past the tolerance."""
     if stored is None:
         print(f"{case}: {counted:,}, none stored; run again with --update")

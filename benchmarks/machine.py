@@ -19,7 +19,9 @@ def describe() -> dict[str, str]:
     """Return the description as lines of a table."""
     return {
         "date": datetime.date.today().isoformat(),
+        "load": f"{os.getloadavg()[0]:.1f}",
         "processor": first_field("/proc/cpuinfo", "model name"),
+        "last cache": last_cache(),
         "cores": str(len(os.sched_getaffinity(0))),
         "memory": f"{int(first_field('/proc/meminfo', 'MemTotal').split()[0]) / 2**20:.0f} GiB",
         "system": f"{platform.system()} {platform.release()}, Python {platform.python_version()}",
@@ -29,6 +31,12 @@ def describe() -> dict[str, str]:
         "packages": ", ".join(f"{name} {package_version(name)}" for name in PACKAGES),
         "crates": ", ".join(f"{name} {crate_version(name)}" for name in CRATES),
     }
+
+
+def last_cache() -> str:
+    """Return the size of the largest cache of the first core."""
+    caches = sorted(Path("/sys/devices/system/cpu/cpu0/cache").glob("index*/size"))
+    return caches[-1].read_text().strip() + "iB" if caches else "?"
 
 
 def first_field(path: str, name: str) -> str:

@@ -7,8 +7,8 @@ import matplotlib as mpl
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 
+from .results import Results
 from .rivals import CONTENDERS, OURS, Contender
-from .targets import Results
 
 PANELS = ("uniform", "curves")
 

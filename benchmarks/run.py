@@ -1,35 +1,45 @@
-"""Measure everything: `python -m benchmarks.run` writes docs/benchmarks.md, `--quick` prints it."""
+"""Measure families of figures, and write docs/benchmarks.md: `python -m benchmarks.run [FAMILY …]`.
+
+A family is a distribution of points, "small calls", "after the crust" or "limits". Each is stored
+in results.json as soon as it is measured, in the place of what was stored of it; by default all
+are measured, which takes most of an hour. With `--quick`, `--sizes` or `--contenders` the page of
+what was measured is printed, and nothing is stored.
+"""
 
 import argparse
-import json
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict
 
 from . import table
 from .after_crust import after_crust
 from .build_rivals import available
-from .data import DISTRIBUTIONS, HOSTILE
+from .data import HOSTILE
 from .limits import limits
 from .machine import describe
 from .measure import Bounds, Result, measure
+from .results import AFTER_CRUST, FAMILIES, LIMITS, SMALL_CALLS, Family, Results, store
 from .rivals import OURS, Contender
 from .small_calls import small_calls
-from .targets import Results, errors
+from .targets import errors
 
 FULL = Bounds(turns=5, run_seconds=15, timeout=30)
 QUICK = Bounds(turns=5, run_seconds=0.7, timeout=10)
+QUICK_FAMILIES = ("uniform", "curves", SMALL_CALLS, LIMITS)
+
+#: The families without contenders: seconds by description.
+SECONDS: dict[str, Callable[[], dict[str, float]]] = {
+    SMALL_CALLS: small_calls,
+    AFTER_CRUST: after_crust,
+    LIMITS: limits,
+}
 
 
-def plan(quick: bool) -> dict[str, list[int]]:
-    """Return the sizes for each distribution."""
-    if quick:
-        return {name: [10**3, 10**5] for name in ("uniform", "curves")}
-    sizes = {name: [10**k for k in range(3, 7)] for name in DISTRIBUTIONS}
-    sizes |= {name: [10**k for k in range(4, 7)] for name in HOSTILE}
-    for name in ("uniform", "curves"):
-        sizes[name].append(10**7)
-    return sizes
+def sizes_of(distribution: str) -> list[int]:
+    """Return the numbers of points that a distribution is measured at."""
+    if distribution in HOSTILE:
+        return [10**k for k in range(4, 7)]
+    return [10**k for k in range(3, 8 if distribution in ("uniform", "curves") else 7)]
 
 
 def run(
@@ -74,45 +84,53 @@ def expected_seconds(history: Sequence[Result], size: int) -> float:
 
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("families", nargs="*", metavar="FAMILY", help=", ".join(FAMILIES))
     parser.add_argument("--quick", action="store_true", help="two distributions, to 10⁵ points")
-    parser.add_argument("--only", nargs="+", metavar="DISTRIBUTION", help="print these alone")
     parser.add_argument("--sizes", nargs="+", type=int, metavar="N", help="print these alone")
     parser.add_argument("--contenders", nargs="+", metavar="NAME", help="print these alone")
-    return parser.parse_args()
+    options = parser.parse_args()
+    for name in options.families:
+        if name not in FAMILIES:
+            parser.error(f"{name!r} is no family: name some of {', '.join(FAMILIES)}")
+    return options
 
 
-def chosen_plan(options: argparse.Namespace) -> dict[str, list[int]]:
-    """Return the plan, or what the options say instead."""
-    sizes = plan(options.quick)
-    chosen = {name: options.sizes or sizes[name] for name in options.only or sizes}
-    return {name: sorted(sizes) for name, sizes in chosen.items()}
+def contenders_of(options: argparse.Namespace) -> tuple[list[Contender], dict[str, str]]:
+    """Return the contenders that are asked for, and why others are absent."""
+    contenders, absent = available()
+    if options.contenders:
+        contenders = [c for c in contenders if c.name.startswith(tuple(options.contenders))]
+    return contenders, absent
+
+
+def families(options: argparse.Namespace) -> Iterator[tuple[str, Family]]:
+    """Measure the families that are asked for."""
+    contenders, absent = contenders_of(options)
+    for name in options.families or (QUICK_FAMILIES if options.quick else FAMILIES):
+        machine = describe()
+        if name in SECONDS:
+            yield name, {"machine": machine, "seconds": SECONDS[name]()}
+            continue
+        sizes = options.sizes or ([10**3, 10**5] if options.quick else sizes_of(name))
+        bounds = QUICK if options.quick else FULL
+        results = [asdict(result) for result in run(name, sorted(sizes), contenders, bounds)]
+        yield name, {"machine": machine, "absent": absent, "results": results}
 
 
 def main() -> int:
     options = arguments()
-    contenders, absent = available()
-    if options.contenders:
-        contenders = [c for c in contenders if c.name.startswith(tuple(options.contenders))]
-    bounds = QUICK if options.quick else FULL
-    results = [
-        result
-        for distribution, sizes in chosen_plan(options).items()
-        for result in run(distribution, sizes, contenders, bounds)
-    ]
-    figures = {
-        "machine": describe(),
-        "absent": absent,
-        "results": [asdict(result) for result in results],
-        "small_calls": small_calls(),
-        "after_crust": {} if options.quick else after_crust(),
-        "limits": limits(),
-    }
-    if options.quick or options.only or options.sizes or options.contenders:
-        print(table.page(figures))
+    is_partial = bool(options.quick or options.sizes or options.contenders)
+    measured: dict[str, Family] = {}
+    for name, family in families(options):
+        measured[name] = family
+        if not is_partial:
+            store(name, family)
+    results = Results(measured)
+    if is_partial:
+        print(table.page(results))
     else:
-        table.RESULTS.write_text(json.dumps(figures, indent=1))
-        table.publish(figures)
-    return bool(errors(Results(results)))
+        table.publish()
+    return bool(errors(results))
 
 
 if __name__ == "__main__":

@@ -1,23 +1,25 @@
-"""Turn measured figures into docs/benchmarks.md and its plot; by itself, those of the last run."""
+"""Turn what is stored into docs/benchmarks.md and its plot: `python -m benchmarks.table`."""
 
 import json
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
-from typing import Any
 
 from .measure import Result, ratio
 from .plot import plot
+from .results import AFTER_CRUST, LIMITS, Results, load
 from .rivals import CGAL_DELAUNAY, CONTENDERS, CRUST, DELAUNAY, OURS, Contender
-from .targets import MILLION, Results, Target, targets
+from .targets import MILLION, Target, targets
 
 DOCS = Path(__file__).parent.parent / "docs"
-#: The figures that the page was made from, beside it in the repository: a test makes it again.
-RESULTS = Path(__file__).parent / "results.json"
+#: What is said of the run, not of the machine.
+OF_A_RUN = ("date", "load")
 
 INTRODUCTION = """\
 # Benchmarks
 
-Written by `make bench`; every figure is from one run on one machine.
+What `python -m benchmarks.table` makes of `benchmarks/results.json`, and nothing else; a test
+compares. A family, which is a distribution of points or another kind of figures, is measured in one
+run on one machine, by itself (`python -m benchmarks.run curves`) or with all others (`make bench`).
 
 Each contender is a process of its own that holds the points in memory. A turn runs every
 contender once (short work is repeated until it takes 20 ms), and five turns follow one another, A
@@ -42,31 +44,39 @@ What else the samples of curves have, a million of them on all cores: the crust 
 the rest from the triangulation and the edges that it leaves. The certificate uses the interpolant
 that the local feature size was measured on.
 """
-LIMITS = (
-    "What a million points cost at least, beside what crustline takes for them on one thread:\n"
-)
+FLOOR = "What a million points cost at least, beside what crustline takes for them on one thread:\n"
+CACHE = """\
+Times the time of one CGAL triangulation in the same turn. In parentheses: what crustline's crust
+holds at its peak, its input included, against the last cache that the machine's table gives.
+"""
+LOAD = """\
+The load is that of the minute before, in processes that want to run: where it is not small beside
+the cores, the machine did other work meanwhile, seconds are too many, and ratios are what to read.
+Of runs without a load medians of three digits are all that was kept, and ratios are theirs.
+"""
 
 
-def publish(figures: dict[str, Any]) -> None:
+def publish() -> None:
     """Write the page and its plot."""
+    results = Results(load())
     DOCS.mkdir(exist_ok=True)
-    plot(load(figures), DOCS / "benchmarks.svg")
-    (DOCS / "benchmarks.md").write_text(page(figures), encoding="utf-8")
+    plot(results, DOCS / "benchmarks.svg")
+    (DOCS / "benchmarks.md").write_text(page(results), encoding="utf-8")
 
 
-def page(figures: dict[str, Any]) -> str:
+def page(results: Results) -> str:
     """Return the page as Markdown."""
-    results = load(figures)
-    size = min(MILLION, max(result.size for result in results.all))
+    size = min(MILLION, max((result.size for result in results.all), default=0))
     return "\n".join(
         [
             INTRODUCTION,
-            markdown(["Machine", ""], figures["machine"].items()),
+            *machines(results),
+            LOAD,
             "![Seconds by points](benchmarks.svg)\n",
             "## Targets\n",
             markdown(
                 ["target", "at most", "measured", ""],
-                map(target_row, targets(results, figures["small_calls"], figures["after_crust"])),
+                map(target_row, targets(results)),
             ),
             f"## Seconds for {size:,} points\n",
             "In parentheses: times one CGAL triangulation of the same points.\n",
@@ -75,27 +85,39 @@ def page(figures: dict[str, Any]) -> str:
             by_distribution(results, size, lambda result: seconds(result.processor_seconds)),
             f"## Peak memory, bytes a point over the input, {size:,} points\n",
             by_distribution(results, size, lambda result: f"{result.peak_bytes / result.n:.0f}"),
+            "## In cache and out of it\n",
+            CACHE,
+            *(in_and_out_of_cache(results, distribution) for distribution in results.distributions),
             "## Seconds by the number of points\n",
             *(by_size(results, distribution) for distribution in results.distributions),
             "## After the crust\n",
             AFTER,
-            markdown(["", "seconds"], after_rows(figures["after_crust"])),
+            markdown(["", "seconds"], after_rows(results.seconds(AFTER_CRUST))),
             "## Where crustline loses\n",
             bullets(losses(results)) or "Nowhere in this run.\n",
             "## Agreement\n",
             AGREEMENT,
             by_distribution(results, size, difference),
             "## Left out\n",
-            bullets(left_out(results, figures["absent"])) or "Nothing.\n",
+            bullets(left_out(results)) or "Nothing.\n",
             "## Limits\n",
-            LIMITS,
-            markdown(["", "seconds"], limit_rows(results, figures["limits"])),
+            FLOOR,
+            markdown(["", "seconds"], limit_rows(results, results.seconds(LIMITS))),
         ]
     )
 
 
-def load(figures: dict[str, Any]) -> Results:
-    return Results(Result(**fields) for fields in figures["results"])
+def machines(results: Results) -> Iterator[str]:
+    """Yield each machine, with the families that were measured on it, and when."""
+    families: dict[str, list[str]] = {}
+    for name, family in results.families.items():
+        lasting = {what: said for what, said in family["machine"].items() if what not in OF_A_RUN}
+        families.setdefault(json.dumps(lasting), []).append(name)
+    for machine, names in families.items():
+        yield markdown(["machine", ""], json.loads(machine).items())
+        runs = ((name, results.families[name]["machine"]) for name in names)
+        rows = ([name, *(machine[what] for what in OF_A_RUN)] for name, machine in runs)
+        yield markdown(["family", *OF_A_RUN], rows)
 
 
 def markdown(head: list[str], rows: Iterable[Iterable[str]]) -> str:
@@ -157,6 +179,36 @@ def by_size(results: Results, distribution: str) -> str:
     return markdown([distribution, *(f"{size:,}" for size in columns)], rows)
 
 
+def in_and_out_of_cache(results: Results, distribution: str) -> str:
+    """One row for each contender of ours, one column for each size: times CGAL's triangulation."""
+    found = [
+        (size, crust)
+        for name, size in sorted(results.places)
+        if name == distribution
+        and results.find(name, size, CGAL_DELAUNAY)
+        and (crust := results.find(name, size, CRUST))
+    ]
+    if len(found) < 2:
+        return ""
+    heads = (f"{size:,}{held(crust)}" for size, crust in found)
+    rows = (
+        [ours.label, *(times_cgal(results, distribution, size, ours) for size, _ in found)]
+        for ours in OURS
+    )
+    return markdown([distribution, *heads], rows)
+
+
+def held(result: Result) -> str:
+    """Return the bytes at the peak, the input included, where they were measured."""
+    megabytes = (result.peak_bytes + 16 * result.n) / 1e6
+    return f" ({megabytes:.1f} MB)" if result.peak_bytes else ""
+
+
+def times_cgal(results: Results, distribution: str, size: int, contender: Contender) -> str:
+    relation = results.ratio(distribution, size, contender, CGAL_DELAUNAY)
+    return "" if relation is None else f"{relation:.2f}"
+
+
 def shown(
     results: Results,
     distribution: str,
@@ -196,9 +248,10 @@ def losses(results: Results) -> Iterator[str]:
                 yield f"{place}: crustline takes {relation:.2f} × the time of {rival.name}."
 
 
-def left_out(results: Results, absent: dict[str, str]) -> Iterator[str]:
-    for label, reason in absent.items():
-        yield f"{label}, everywhere: {reason}"
+def left_out(results: Results) -> Iterator[str]:
+    for name, family in results.families.items():
+        for label, reason in family.get("absent", {}).items():
+            yield f"{name}, {label}: {reason}"
     for result in results.all:
         if result.note:
             yield f"{result.distribution}, {result.size:,} points, {result.label}: {result.note}"
@@ -221,4 +274,4 @@ def limit_rows(results: Results, limits: dict[str, float]) -> Iterator[list[str]
 
 
 if __name__ == "__main__":
-    publish(json.loads(RESULTS.read_text()))
+    publish()

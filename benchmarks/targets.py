@@ -4,8 +4,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from .data import CRUST_EDGES, DISTRIBUTIONS, HOSTILE
-from .measure import Result, ratio
-from .rivals import CGAL_CRUST, CGAL_DELAUNAY, CONTENDERS, CRUST, CRUST_2, OURS, Contender
+from .measure import Result
+from .results import AFTER_CRUST, SMALL_CALLS, Results
+from .rivals import CGAL_CRUST, CGAL_DELAUNAY, CRUST, CRUST_2, OURS
 
 MILLION = 10**6
 
@@ -26,33 +27,11 @@ class Target:
         return "met" if self.measured <= self.bound else "**not met**"
 
 
-class Results:
-    """The results of one run, found by what was measured; a contender that failed is not found."""
-
-    def __init__(self, results: Iterable[Result]) -> None:
-        self.all = list(results)
-        self.places = list(dict.fromkeys((r.distribution, r.size) for r in self.all))
-        self.distributions = list(dict.fromkeys(distribution for distribution, _ in self.places))
-        labels = {result.label for result in self.all}
-        self.contenders = [contender for contender in CONTENDERS if contender.label in labels]
-        self.index = {(r.distribution, r.size, r.label): r for r in self.all}
-
-    def find(self, distribution: str, size: int, contender: Contender) -> Result | None:
-        result = self.index.get((distribution, size, contender.label))
-        return None if result is None or result.note else result
-
-    def ratio(self, distribution: str, n: int, one: Contender, other: Contender) -> float | None:
-        a, b = self.find(distribution, n, one), self.find(distribution, n, other)
-        return ratio(a, b) if a and b else None
-
-
 def largest(values: Iterable[float | None]) -> float | None:
     return max((value for value in values if value is not None), default=None)
 
 
-def targets(
-    results: Results, small_calls: dict[str, float], after_crust: dict[str, float]
-) -> Iterator[Target]:
+def targets(results: Results) -> Iterator[Target]:
     """Yield the targets of the crust, then that of what comes after it."""
     for distribution, contender, bound in (
         ("curves", CRUST, 1.0),
@@ -67,8 +46,8 @@ def targets(
         "crust: 10⁷ points / 10⁶ points", 12, growth(results, ("uniform", "curves"), 10 * MILLION)
     )
     yield Target("crust: peak memory over the input", 160, memory(results), " bytes a point")
-    yield small_call(small_calls, 10, 25e-6)
-    yield small_call(small_calls, 1000, 500e-6)
+    yield small_call(results, 10, 25e-6)
+    yield small_call(results, 1000, 500e-6)
     worst = largest(results.ratio(d, MILLION, CRUST, CGAL_CRUST) for d in DISTRIBUTIONS)
     yield Target("crust of 10⁶ points, worst distribution: / CGAL's two-pass crust", 0.25, worst)
     yield Target(
@@ -82,7 +61,7 @@ def targets(
     yield Target(
         "medial axis, local feature size and certificate of 10⁶ curve samples: / their crust",
         3,
-        after_crust.get("ratio"),
+        results.seconds(AFTER_CRUST).get("ratio"),
     )
 
 
@@ -96,8 +75,8 @@ def memory(results: Results) -> float | None:
     return largest(result.peak_bytes / result.n for result in found if result)
 
 
-def small_call(seconds: dict[str, float], n: int, bound: float) -> Target:
-    measured = seconds.get(str(n))
+def small_call(results: Results, n: int, bound: float) -> Target:
+    measured = results.seconds(SMALL_CALLS).get(str(n))
     return Target(f"crust of {n} points", bound * 1e6, measured and measured * 1e6, " µs")
 
 

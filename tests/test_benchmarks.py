@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-import json
-
-import pytest
-from benchmarks import table
+from benchmarks import results, table
 
 
 def test_the_page_is_the_generators_output() -> None:
-    if not table.RESULTS.exists():
-        pytest.skip("benchmarks/results.json is stored by the next `make bench`")
-    figures = json.loads(table.RESULTS.read_text(encoding="utf-8"))
-    assert (table.DOCS / "benchmarks.md").read_text(encoding="utf-8") == table.page(figures)
+    page = table.page(results.Results(results.load()))
+    assert (table.DOCS / "benchmarks.md").read_text(encoding="utf-8") == page
+
+
+def test_a_family_replaces_what_was_stored_of_it_and_nothing_else(tmp_path, monkeypatch) -> None:  # type: ignore[no-untyped-def]
+    monkeypatch.setattr(results, "RESULTS", tmp_path / "results.json")
+    one, other = {"seconds": {"10": 1.0}}, {"seconds": {"10": 2.0}}
+    results.store(results.SMALL_CALLS, one)
+    results.store(results.LIMITS, one)
+    results.store(results.SMALL_CALLS, other)
+    assert results.load() == {results.SMALL_CALLS: other, results.LIMITS: one}
