@@ -16,7 +16,7 @@ pub struct Incidence {
 impl Incidence {
     /// Of `edges` between numbers below `count`. Linear time.
     #[must_use]
-    pub fn new(edges: &Edges, count: usize) -> Self {
+    pub fn new(edges: &[[u32; 2]], count: usize) -> Self {
         let mut offsets = vec![0u32; count + 2];
         for &v in edges.as_flattened() {
             offsets[v as usize + 2] += 1;

@@ -38,16 +38,19 @@ pub fn measure(
     let curve = axis.curve();
     progress.enter(Stage::Measure, 2 * edges.len() + delaunay.points().len())?;
     let vertex = vertices_of_rows(delaunay);
-    // In the order of vertices, which are near each other in memory where they are in the plane; rows need not be.
     let rows = delaunay.rows();
     let in_order = |&[p, q]: &[u32; 2]| {
         let is_turned = rows[p as usize] > rows[q as usize];
         ratio(delaunay, axis, if is_turned { [q, p] } else { [p, q] })
     };
+    // In the order of vertices, which are near each other in memory where they are in the plane; rows need not be.
+    let turn = |v: usize| (turn(delaunay, curve, v as u32), curve.of(v as u32).len() as u32);
+    let (turns, degrees) = {
+        let turns = map(delaunay.points().len(), (0.0, 0), progress, turn)?;
+        vertex.par_iter().map(|&v| turns[v as usize]).unzip()
+    };
     let own = curve.edges();
     let ratios = map(own.len(), 0.0, progress, |k| in_order(&own[k]))?;
-    let turn = |v: usize| (turn(delaunay, curve, v as u32), curve.of(v as u32).len() as u32);
-    let turns = map(delaunay.points().len(), (0.0, 0), progress, turn)?;
     let is_distinct = delaunay.duplicates().is_empty();
     let of_rows = |edge: &[u32; 2]| {
         let ends = edge.map(|row| vertex[row as usize]);
@@ -57,7 +60,6 @@ pub fn measure(
             ratio(delaunay, axis, ends)
         }
     };
-    let (turns, degrees) = vertex.par_iter().map(|&v| turns[v as usize]).unzip();
     let ratios = map(edges.len(), 0.0, progress, |k| of_rows(&edges[k]))?;
     Ok(Measures { ratios, turns, degrees })
 }

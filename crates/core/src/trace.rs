@@ -1,7 +1,6 @@
 //! Tracing: edges joined end to end into rings and polylines.
 
 use crate::adjacency::Incidence;
-use crate::edges::Edges;
 use crate::error::Result;
 use crate::exact::predicates::orientation;
 use crate::memory;
@@ -30,11 +29,15 @@ pub struct Curves {
 ///
 /// Curves end at endpoints and branches, rows whose degree is not two. A ring starts at its smallest row and runs
 /// counter-clockwise; a polyline starts at its end of smaller row; curves are sorted by their first row, then their second.
-/// A loop based at one branch is a ring. Linear time but for the sort of the curves.
+/// A loop based at one branch is a ring. Linear time but for the sort of the curves. Edges that are given away are freed early.
 ///
 /// # Errors
 /// A cancelled `progress`.
-pub fn trace(points: &[Point], edges: &Edges, progress: &Progress) -> Result<Curves> {
+pub fn trace(
+    points: &[Point],
+    edges: impl AsRef<[[u32; 2]]>,
+    progress: &Progress,
+) -> Result<Curves> {
     Ok(trace_between(points, edges, |_| false, progress)?.0)
 }
 
@@ -47,14 +50,16 @@ pub fn trace(points: &[Point], edges: &Edges, progress: &Progress) -> Result<Cur
 /// A cancelled `progress`.
 pub fn trace_between(
     points: &[Point],
-    edges: &Edges,
+    edges: impl AsRef<[[u32; 2]]>,
     cut: impl Fn(u32) -> bool,
     progress: &Progress,
 ) -> Result<(Curves, Vec<Vec<u32>>)> {
-    progress.enter(Stage::Trace, edges.len())?;
-    memory::check(points.len() + edges.len(), BYTES)?;
-    let graph = Incidence::new(edges, points.len());
-    let mut walk = Walk { graph: &graph, cut, used: vec![false; edges.len()], path: vec![] };
+    let count = edges.as_ref().len();
+    progress.enter(Stage::Trace, count)?;
+    memory::check(points.len() + count, BYTES)?;
+    let graph = Incidence::new(edges.as_ref(), points.len());
+    drop(edges);
+    let mut walk = Walk { graph: &graph, cut, used: vec![false; count], path: vec![] };
     let (mut curves, mut runs) = (Curves { offsets: vec![0], ..Curves::default() }, Vec::new());
     // From the stops first: what is left then are rings without one.
     for passes in [false, true] {
@@ -70,6 +75,8 @@ pub fn trace_between(
     }
     curves.isolated = isolated(points, &graph);
     curves.isolated.retain(|&row| !(walk.cut)(row));
+    drop(walk);
+    drop(graph);
     Ok((curves.sorted(), runs))
 }
 
@@ -125,13 +132,16 @@ impl<C: Fn(u32) -> bool> Walk<'_, C> {
 fn isolated(points: &[Point], graph: &Incidence) -> Vec<u32> {
     // Adding 0.0 makes one of the two zeros.
     let key = |row: u32| points[row as usize].map(|x| (x + 0.0).to_bits());
-    let (lone, joined): (Vec<u32>, Vec<u32>) =
-        (0..points.len() as u32).partition(|&row| graph.of(row).is_empty());
+    let is_lone = |row: &u32| graph.of(*row).is_empty();
+    let rows = 0..points.len() as u32;
     let mut first = HashMap::new();
-    for &row in &lone {
+    for row in rows.clone().filter(is_lone) {
         first.entry(key(row)).or_insert(row);
     }
-    for row in joined.into_iter().filter(|_| !lone.is_empty()) {
+    if first.is_empty() {
+        return Vec::new();
+    }
+    for row in rows.filter(|row| !is_lone(row)) {
         first.remove(&key(row));
     }
     let mut rows: Vec<u32> = first.into_values().collect();

@@ -24,7 +24,7 @@ pub fn trace<'py>(
     let edges = canonical(py, rows(py, &edges)?, points.len())?;
     let call = Call { size: points.len(), threads, callback: progress };
     let Curves { indices, offsets, closed, isolated } =
-        call.run(py, |progress| crustline_core::trace::trace(points, &edges, progress))?;
+        call.run(py, |progress| crustline_core::trace::trace(points, edges, progress))?;
     Ok((
         integers(py, indices.into_iter().map(i64::from)),
         integers(py, offsets.into_iter().map(|offset| offset as i64)),

@@ -68,9 +68,8 @@ impl Delaunay {
             return Err(Error::TooManyPoints { count: points.len(), limit: MOST_POINTS });
         }
         memory::check(points.len(), BYTES)?;
-        let sorted = order(points, progress)?;
-        let (stars, hull) = stars(&sorted, leaf::MOST, progress)?;
-        let Order { points: vertices, rows, duplicates, scale, .. } = sorted;
+        let Order { points: vertices, rows, codes, duplicates, scale } = order(points, progress)?;
+        let (stars, hull) = stars(&vertices, codes, leaf::MOST, progress)?;
         Ok(Self { points: vertices, rows, duplicates, scale, input: points.len(), hull, stars })
     }
 
@@ -148,9 +147,13 @@ impl Delaunay {
     }
 }
 
-/// Triangulate the sorted vertices; return their stars and the hull.
-fn stars(sorted: &Order, leaf: usize, progress: &Progress) -> Result<(Stars, Vec<u32>)> {
-    let Order { points, codes, .. } = sorted;
+/// Triangulate the vertices `points`, sorted by their `codes`; return their stars and the hull.
+fn stars(
+    points: &[Point],
+    codes: Vec<u64>,
+    leaf: usize,
+    progress: &Progress,
+) -> Result<(Stars, Vec<u32>)> {
     let count = points.len();
     progress.enter(Stage::Triangulate, count)?;
     let mut slots = vec![HalfEdge::default(); SLOTS * count];
@@ -159,9 +162,11 @@ fn stars(sorted: &Order, leaf: usize, progress: &Progress) -> Result<(Stars, Vec
     let mut hull = NONE;
     if count > 0 {
         let mut graph = Slots::new(points, 0, &mut slots, [&mut first, &mut offsets[1..]]);
-        let vertices = Vertices { points, codes, leaf };
+        let vertices = Vertices { points, codes: &codes, leaf };
         hull = triangulate(vertices, &mut graph, progress)?.left.edge;
     }
+    // The peak comes now.
+    drop(codes);
     Stars::collect(&slots, first, offsets, hull, progress)
 }
 

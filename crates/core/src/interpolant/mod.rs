@@ -15,7 +15,7 @@ use crate::delaunay::Delaunay;
 use crate::edges::Edges;
 use crate::error::Result;
 use crate::memory;
-use crate::parts::{GRAIN, in_parts};
+use crate::parts::{GRAIN, try_each};
 use crate::point::Point;
 use crate::progress::{Progress, Stage};
 use crate::space::tree::Tree;
@@ -50,11 +50,14 @@ impl Interpolant {
         progress.enter(Stage::Interpolate, 3 * delaunay.points().len())?;
         let bends = bends(delaunay, &stencil, &scale);
         progress.advance(delaunay.points().len())?;
-        let axis = axis(delaunay, &bends, progress)?;
-        let tree = Tree::new(&axis, scale.bounds);
+        let tree = Tree::new(&axis(delaunay, &bends, progress)?, scale.bounds);
         let places = delaunay.points();
-        let nearest = in_parts(places.len(), GRAIN, progress, |part| tree.nearest(&places[part]))?;
-        let nearest = nearest.concat();
+        let mut nearest = vec![(0, 0.0); places.len()];
+        let parts = nearest.chunks_mut(GRAIN).zip(places.chunks(GRAIN)).collect();
+        try_each(parts, |_, (nearest, places)| {
+            nearest.copy_from_slice(&tree.nearest(places));
+            progress.advance(places.len())
+        })?;
         Ok(Self { curve, bends, tree, nearest })
     }
 

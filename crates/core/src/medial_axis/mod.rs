@@ -60,6 +60,7 @@ pub fn medial_axis(delaunay: &Delaunay, edges: &Edges, progress: &Progress) -> R
     let wedges = delaunay.wedge_triangles();
     progress.advance(1)?;
     let circles: Vec<Circle> = triangles.par_iter().map(|t| Circle::new(delaunay, t)).collect();
+    drop(triangles);
     let mesh = Mesh { delaunay, circles: &circles, wedges: &wedges, curve: &curve, flips: &flips };
     progress.advance(1)?;
     let centers = one_for_each_circle(&mesh);

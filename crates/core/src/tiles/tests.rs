@@ -412,7 +412,7 @@ fn traced(world: &World, edges: &Edges) -> Vec<(Vec<u32>, bool)> {
     let site = |row: u32| Site { row: row.into(), at: world.at(row) };
     let (mut found, mut runs, mut all) = (Vec::new(), Vec::new(), Vec::new());
     for k in 0..world.tiles {
-        let own = edges.iter().copied().filter(|edge| tile(edge[0]) == k).collect();
+        let own: Edges = edges.iter().copied().filter(|edge| tile(edge[0]) == k).collect();
         let (curves, more) =
             trace_between(&world.points, &own, |row| cut.contains(&row), &progress).unwrap();
         let run = |k: usize| curves.indices[curves.offsets[k]..curves.offsets[k + 1]].to_vec();
