@@ -472,7 +472,7 @@ def test_files_that_are_something_else_are_refused(
 def test_a_missing_package_is_named_with_its_extra(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("crustline.formats.format.find_spec", lambda name: None)
+    monkeypatch.setattr("crustline.errors.find_spec", lambda name: None)
     with pytest.raises(cl.MissingExtraError, match=r"crustline\[gis\]"):
         cl.write(cl.Points([(0, 0)]), tmp_path / "points.gpkg")
     assert not list(tmp_path.iterdir())

@@ -55,7 +55,7 @@ def test_no_points_and_one_group_are_groups() -> None:
 def test_points_carry_their_labels_and_threads() -> None:
     points = cl.Points(POINTS, columns={"part": LABELS})
     edges = cl.by_group(cl.Delaunay(points, threads=1), points.columns["part"], cl.crust)
-    assert edges.tolist() == cl.by_group(POINTS, LABELS, cl.crust, threads=2).tolist()
+    assert edges.tolist() == cl.by_group(POINTS, LABELS, cl.crust).tolist()
 
 
 @pytest.mark.parametrize(

@@ -632,7 +632,7 @@ def test_refuses_bad_input(tmp_path: Path) -> None:
 
 
 def test_names_the_extra(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "scipy.interpolate", None)
+    monkeypatch.setitem(sys.modules, "scipy", None)
     with pytest.raises(MissingExtraError, match=r"crustline\[smooth\]"):
         smooth(trace(circle(9), ring_edges(9)))
 

@@ -238,7 +238,7 @@ def as_rows(rows: npt.ArrayLike, n: int) -> IntArray:
     return array.astype(np.int64)
 
 
-def as_edges(edges: npt.ArrayLike, n: int) -> IntArray:
+def as_edges(edges: npt.ArrayLike, n: int, *, kept: bool = True) -> IntArray:
     """Return edges between n points as int64 rows i < j, sorted and unique.
 
     Parameters
@@ -247,11 +247,14 @@ def as_edges(edges: npt.ArrayLike, n: int) -> IntArray:
         Rows of points, in any order and direction; a repeated edge counts once.
     n : int
         The number of points.
+    kept : bool, default True
+        Whether they are kept, so that the caller must not be able to change them: then an array
+        that can be written is copied, and else it serves as it is if its edges are like this.
 
     Returns
     -------
     edges : ndarray of int64, shape (m, 2)
-        i < j in each row, rows sorted, unique. Read-only.
+        i < j in each row, rows sorted, unique. Read-only if they are kept.
 
     Raises
     ------
@@ -279,7 +282,7 @@ def as_edges(edges: npt.ArrayLike, n: int) -> IntArray:
             f"edges: row 0 is {array[0].tolist()}, not two integers: pass rows of i, j"
         )
     if array.dtype == np.int64 and array.flags.c_contiguous and _core.is_canonical(array, n):
-        return read_only(array.copy()) if array.flags.writeable else array  # as methods' are
+        return read_only(array.copy()) if kept and array.flags.writeable else array
     _check_ends(array, n)
     return read_only(_canonical(np.ascontiguousarray(array, dtype=np.int64), n))
 

@@ -96,6 +96,16 @@ class Feature(Record):
     parts: tuple[IntArray, ...]
     closed: bool
 
+    @property
+    def runs(self) -> list[IntArray]:
+        """The rows of each part, with its first row once more at the end if it is closed."""
+        return [np.append(part, part[:1]) if self.closed else part for part in self.parts]
+
+    @property
+    def rows(self) -> IntArray:
+        """The rows of all parts, one after another."""
+        return np.concatenate(self.parts)
+
 
 @dataclass(frozen=True, eq=False)
 class Curves(Record, Sequence[Curve]):
@@ -377,4 +387,4 @@ def trace(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike) -> Curves:
     ([0, 1, 2], False, [3])
     """
     kept, how = points_and_how(points)
-    return Curves(kept, *_core.trace(kept.xy, as_edges(edges, len(kept)), *how))
+    return Curves(kept, *_core.trace(kept.xy, as_edges(edges, len(kept), kept=False), *how))

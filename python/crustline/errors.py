@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
+
 
 class CrustlineError(Exception):
     """The base of every error that crustline raises on purpose."""
@@ -32,8 +34,11 @@ def shown(value: object, most: int = 60) -> str:
     return text if len(text) <= most else f"{text[: most - 1]}…"
 
 
-def missing_extra(extra: str, package: str) -> MissingExtraError:
-    """Return the error that says which extra of crustline brings `package`."""
-    return MissingExtraError(
-        f"this needs {package}, which is not installed: run pip install 'crustline[{extra}]'"
-    )
+def require(extra: str, *packages: str) -> None:
+    """Raise `MissingExtraError` if a package that an extra of crustline brings is not installed."""
+    for package in packages:
+        if find_spec(package) is None:
+            raise MissingExtraError(
+                f"this needs {package}, which is not installed: "
+                f"run pip install 'crustline[{extra}]'"
+            )

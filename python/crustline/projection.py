@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from crustline.delaunay import Delaunay, points_and_how
-from crustline.errors import InputError, missing_extra, shown
+from crustline.errors import InputError, MissingExtraError, require, shown
 from crustline.points import Points, as_crs
 
 __all__ = ["is_geographic", "project", "projected", "to_longitude_latitude"]
 
 _LONGITUDE_LATITUDE = "OGC:CRS84"
+_WGS_84 = (_LONGITUDE_LATITUDE, "EPSG:4326")
 #: Mean directions shorter than this belong to points all around the globe.
 _AROUND = 0.1
 
@@ -99,23 +100,25 @@ def projected(method: Callable[..., Any], crs: str = "auto") -> Callable[..., An
 
 def to_longitude_latitude(points: Points) -> Points:
     """Return points that have a CRS in longitude and latitude on WGS 84, in this order."""
-    if points.crs in (_LONGITUDE_LATITUDE, "EPSG:4326"):
+    if points.crs in _WGS_84:
         return points
     return project(points, _LONGITUDE_LATITUDE)
 
 
 def is_geographic(points: Points) -> bool:
-    """Return whether the coordinates of points are angles, as far as their CRS says."""
-    return points.crs in (_LONGITUDE_LATITUDE, "EPSG:4326") or (
-        points.crs is not None and bool(_crs(points.crs).is_geographic)
-    )
+    """Return whether the coordinates of points are angles, as far as is known of their CRS."""
+    if points.crs is None or points.crs in _WGS_84:
+        return points.crs is not None
+    try:
+        return bool(_crs(points.crs).is_geographic)
+    except (InputError, MissingExtraError):
+        return False
 
 
 def _crs(name: str) -> Any:
-    try:
-        import pyproj
-    except ImportError:
-        raise missing_extra("gis", "pyproj") from None
+    require("gis", "pyproj")
+    import pyproj
+
     try:
         return pyproj.CRS.from_user_input(name)
     except pyproj.exceptions.CRSError:

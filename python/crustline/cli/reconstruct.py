@@ -71,7 +71,9 @@ def reconstruction(
 
 
 def _warn_of_degrees(source: Source, points: Points, method: Method) -> None:
-    if method.project is None and points.crs in ("EPSG:4326", "OGC:CRS84"):
+    from crustline.projection import is_geographic
+
+    if method.project is None and is_geographic(points):
         warnings.warn(
             f"{source.name}: longitudes and latitudes are taken for coordinates of the plane: "
             "add --project auto",

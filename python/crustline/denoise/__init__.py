@@ -16,7 +16,7 @@ from crustline.delaunay import Delaunay, as_delaunay
 from crustline.denoise.annotated import annotated
 from crustline.denoise.clean import clean_strands, rest
 from crustline.denoise.strand import ROWS, Strand, strands
-from crustline.errors import InputError, missing_extra
+from crustline.errors import InputError, require
 from crustline.methods import as_method, connect
 from crustline.points import Points
 from crustline.projection import project
@@ -182,7 +182,7 @@ def denoise(
     >>> bool(np.abs(radii - 1).max() < 0.05), bool(0.09 < np.median(found.noise) < 0.11)
     (True, True)
     """
-    _require_scipy()
+    require("smooth", "scipy")
     method = as_method(method, {})
     delaunay = as_delaunay(points)
     _check(delaunay)
@@ -233,13 +233,6 @@ def as_noise(noise: ArrayLike, points: FloatArray) -> FloatArray:
             f"{extent:g}: give it in the unit of the coordinates"
         )
     return given
-
-
-def _require_scipy() -> None:
-    try:
-        import scipy.linalg  # noqa: F401
-    except ImportError:
-        raise missing_extra("smooth", "scipy") from None
 
 
 def _check(delaunay: Delaunay) -> None:

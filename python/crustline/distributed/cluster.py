@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
-from crustline.errors import InputError, missing_extra
+from crustline.errors import InputError, require
 
 #: The share of the machine's memory, or its cgroup's, that a run may take by itself.
 _SHARE = 0.6
@@ -34,10 +34,9 @@ class Crew:
 @contextmanager
 def crew(client: Any, scheduler: str | None, memory_limit: int | str | None) -> Iterator[Crew]:
     """Give the client, the one of a scheduler's address, or a cluster on this machine."""
-    try:
-        from distributed import Client
-    except ModuleNotFoundError:
-        raise missing_extra("distributed", "Dask distributed") from None
+    require("distributed", "distributed")
+    from distributed import Client
+
     if client is not None:
         yield Crew(client, _memory_of(client, memory_limit))
         return

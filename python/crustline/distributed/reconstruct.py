@@ -20,7 +20,7 @@ from crustline.distributed.run import (
     save,
 )
 from crustline.distributed.sources import open_input
-from crustline.errors import missing_extra
+from crustline.errors import require
 from crustline.methods import Method, crust
 from crustline.scalars import as_length, as_whole
 
@@ -110,7 +110,7 @@ def reconstruct(  # noqa: PLR0913 (all but three have a default)
     rule = rule_of(method, parameters)
     width = None if halo is None else as_length("halo", halo)
     rounds = as_whole("rounds", rounds, 0)
-    _require()
+    require("distributed", "distributed", "pyarrow")
     address = client if isinstance(client, str) else None
     with crew(None if address else client, address, memory_limit) as found:
         size = _tile_points(tile_points, found)
@@ -128,12 +128,3 @@ def reconstruct(  # noqa: PLR0913 (all but three have a default)
 
 def _tile_points(given: int | None, found: Crew) -> int:
     return found.tile_points() if given is None else as_whole("tile_points", given, 1)
-
-
-def _require() -> None:
-    try:
-        import distributed
-        import pyarrow
-    except ModuleNotFoundError as error:
-        raise missing_extra("distributed", str(error.name)) from None
-    del distributed, pyarrow

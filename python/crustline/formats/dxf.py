@@ -14,10 +14,11 @@ import numpy as np
 from crustline.arrays import FloatArray, IntArray
 from crustline.curves import Curves, trace
 from crustline.formats.format import Format, Layer
-from crustline.formats.geometries import edges_of, joined
+from crustline.formats.geometries import joined
 from crustline.formats.options import LAYER, TOLERANCE, choice
 from crustline.formats.source import Source
 from crustline.formats.target import Target
+from crustline.formats.vertices import edges_along
 from crustline.points import Points
 from crustline.smooth import Splines
 
@@ -42,9 +43,10 @@ def read_curves(source: Source, *, layer: str | None = None) -> Curves:
     """Return the lines of a drawing, joined where their ends are equal."""
     parts = list(_parts(source, layer))
     points = _points(parts)
-    offsets = np.concatenate([[0], np.cumsum([len(part[2]) for part in parts])]).astype(np.int64)
-    closed = np.array([part[3] for part in parts], dtype=np.bool_)
-    return trace(points, joined(points.xy, edges_of(offsets, closed)))
+    sizes = np.array([len(part[2]) for part in parts], np.int64)
+    closed = np.array([part[3] for part in parts], np.bool_)
+    edges = edges_along(sizes, np.ones_like(closed), closed)
+    return trace(points, joined(points.xy, edges))
 
 
 def layers(source: Source) -> list[Layer]:

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from crustline.errors import InputError
 from crustline.formats.format import Format, Layer
 from crustline.formats.names import find_coordinates
 from crustline.formats.options import COLUMNS, LAYER
@@ -37,10 +36,8 @@ def read(
     }
     pair = (names[places[0]], names[places[1]])
     z = coordinates[2] if len(coordinates) == 3 else None
-    try:
+    with source.named():
         return Points(np.stack(coordinates[:2], axis=1), z=z, columns=rest, names=pair)
-    except InputError as error:
-        raise source.error(str(error)) from None
 
 
 def layers(source: Source) -> list[Layer]:

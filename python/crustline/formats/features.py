@@ -20,18 +20,16 @@ RESERVED = ("curve", "closed", "length", "rows", "geometry")
 
 
 def curve_columns(
-    curves: Curves, rows: Sequence[IntArray], polygons: bool, *, lists: bool = False
+    curves: Curves, features: Sequence[Feature], *, lists: bool = False
 ) -> dict[str, Any]:
     """Return a value per feature: curve, closed, length, rows, and the columns of the points.
 
-    `rows` are those of each feature, in the order of `Curves.features`; that of the isolated points
-    is curve -1. With `lists`, `rows` and
-    the columns are Arrow arrays of lists. Else `rows` is a JSON list; a column whose value is the
-    same at all points of every feature keeps it; of others numbers become NAME_min, NAME_mean and
-    NAME_max, and of the rest the different
-    values are joined by semicolons.
+    The isolated points are curve -1. With `lists`, `rows` and the columns are Arrow arrays of
+    lists. Else `rows` is a JSON list; a column whose value is the same at all points of every
+    feature keeps it; of others numbers become NAME_min, NAME_mean and NAME_max, and of the rest the
+    different values are joined by semicolons.
     """
-    features = list(curves.features(polygons=polygons))
+    rows = [feature.rows for feature in features]
     found: dict[str, Any] = {
         "curve": np.array([-1 if each.number is None else each.number for each in features]),
         "closed": np.array([feature.closed for feature in features], dtype=np.bool_),
@@ -60,9 +58,8 @@ def _listed(columns: dict[str, npt.NDArray[Any]], rows: Sequence[IntArray]) -> d
 
 def _length(curves: Curves, feature: Feature) -> float:
     total = 0.0
-    for part in () if feature.kind == "points" else feature.parts:
-        run = curves.points.xy[np.append(part, part[:1]) if feature.closed else part]
-        steps = np.diff(run, axis=0)
+    for run in () if feature.kind == "points" else feature.runs:
+        steps = np.diff(curves.points.xy[run], axis=0)
         total += float(np.hypot(steps[:, 0], steps[:, 1]).sum())
     return total
 

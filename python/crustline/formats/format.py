@@ -34,11 +34,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from importlib.util import find_spec
 from inspect import signature
 from typing import TYPE_CHECKING, Any
 
-from crustline.errors import InputError, missing_extra, shown
+from crustline.errors import InputError, require, shown
 
 if TYPE_CHECKING:
     from crustline.curves import Curves
@@ -167,6 +166,4 @@ class Format:
 
     def require(self) -> None:
         """Raise `MissingExtraError` if a package that it needs is not installed."""
-        for package in self.needs:
-            if find_spec(package) is None:
-                raise missing_extra(self.extra, package)
+        require(self.extra, *self.needs)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from crustline.arrays import FloatArray, IntArray
+from crustline.arrays import FloatArray
 from crustline.curves import Curves
 from crustline.errors import FormatError
 from crustline.formats.attributes import attributes_of, coordinates_with_height
@@ -243,13 +243,9 @@ def _features_of(curves: Curves, polygons: bool) -> Iterator[dict[str, Any]]:
     """Yield features: positions with heights, and the other columns vertex by vertex."""
     columns = attributes_of(curves, reserved=_RESERVED).columns
 
-    def line(rows: IntArray, closed: bool) -> list[list[float]]:
-        positions: list[list[float]] = coordinates_with_height(curves, rows).tolist()
-        return positions + positions[:1] if closed else positions
-
     for feature in curves.features(polygons=polygons):
-        lines = [line(part, feature.closed) for part in feature.parts]
-        rows = np.concatenate(feature.parts)
+        lines = [coordinates_with_height(curves, run).tolist() for run in feature.runs]
+        rows = feature.rows
         properties = {"curve": feature.number, "closed": feature.closed, "rows": rows.tolist()}
         properties |= {name: as_json(name, values[rows]) for name, values in columns.items()}
         coordinates = lines if feature.kind == "polygon" else lines[0]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,10 +10,11 @@ import numpy as np
 import numpy.typing as npt
 
 from crustline.arrays import BoolArray, FloatArray, IntArray
-from crustline.curves import Curves, trace
+from crustline.curves import Curves, Feature, trace
+from crustline.formats.vertices import edges_along
 from crustline.points import Points
 
-__all__ = ["Vertices", "curves_of", "geometries_of", "points_of", "vertices_of"]
+__all__ = ["Vertices", "from_wkb", "geometries_of", "joined", "vertices_of"]
 
 Geometries = npt.NDArray[np.object_]
 _POLYGON = 3
@@ -30,8 +31,8 @@ class Vertices:
         Heights, if every vertex has one.
     owners : ndarray of int64, shape (n,)
         The number of the geometry that each vertex belongs to.
-    offsets : ndarray of int64, shape (k + 1,)
-        Part number i, a point, line or ring, has the vertices offsets[i] to offsets[i + 1].
+    sizes : ndarray of int64, shape (k,)
+        The number of vertices of each part: a point, line or ring.
     closed : ndarray of bool, shape (k,)
         Whether the part is a ring.
     """
@@ -39,8 +40,26 @@ class Vertices:
     xy: FloatArray
     z: FloatArray | None
     owners: IntArray
-    offsets: IntArray
+    sizes: IntArray
     closed: BoolArray
+
+    def points(self, columns: Mapping[str, npt.NDArray[Any]], crs: str | None) -> Points:
+        """Return them as points; columns have a value per geometry, given to each vertex."""
+        spread = {name: np.asarray(values)[self.owners] for name, values in columns.items()}
+        return Points(self.xy, z=self.z, columns=spread, crs=crs)
+
+    def curves(self, points: Points) -> Curves:
+        """Return the points along the lines and rings; parts that meet in a vertex are joined."""
+        lines = np.ones(len(self.sizes), np.bool_)
+        return trace(points, joined(self.xy, edges_along(self.sizes, lines, self.closed)))
+
+
+def from_wkb(array: Any) -> Geometries:
+    """Return an Arrow array of well-known binary as geometries."""
+    import shapely
+
+    made: Geometries = shapely.from_wkb(array.to_numpy())
+    return made
 
 
 def vertices_of(geometries: Geometries) -> Vertices:
@@ -55,10 +74,9 @@ def vertices_of(geometries: Geometries) -> Vertices:
     kept = np.ones(len(xyz), dtype=np.bool_)
     kept[ends[closed] - 1] = False
     xyz, part = xyz[kept], part[kept]
-    offsets = np.concatenate([[0], np.cumsum(counts - closed)])
     heights = xyz[:, 2]
     z = heights if len(xyz) and np.isfinite(heights).all() else None
-    return Vertices(np.ascontiguousarray(xyz[:, :2]), z, owners[part], offsets, closed)
+    return Vertices(np.ascontiguousarray(xyz[:, :2]), z, owners[part], counts - closed, closed)
 
 
 def _rings(geometries: Geometries) -> tuple[Geometries, IntArray]:
@@ -80,34 +98,6 @@ def _rings(geometries: Geometries) -> tuple[Geometries, IntArray]:
     return np.concatenate([rings, parts[others]])[order], owners[places[order]]
 
 
-def points_of(
-    geometries: Geometries, columns: Mapping[str, npt.NDArray[Any]], crs: str | None
-) -> Points:
-    """Return the vertices as points; columns have a value per geometry, given to each vertex."""
-    found = vertices_of(geometries)
-    spread = {name: np.asarray(values)[found.owners] for name, values in columns.items()}
-    return Points(found.xy, z=found.z, columns=spread, crs=crs)
-
-
-def curves_of(
-    geometries: Geometries, columns: Mapping[str, npt.NDArray[Any]], crs: str | None
-) -> Curves:
-    """Return the lines and rings as curves; parts that meet in a vertex are joined there."""
-    found = vertices_of(geometries)
-    points = points_of(geometries, columns, crs)
-    return trace(points, joined(found.xy, edges_of(found.offsets, found.closed)))
-
-
-def edges_of(offsets: IntArray, closed: BoolArray) -> IntArray:
-    """Return the edges (m, 2) between successive vertices of parts."""
-    following = np.arange(1, offsets[-1] + 1)
-    lasts = offsets[1:] - 1
-    some = np.diff(offsets) > 0
-    following[lasts[some]] = np.where(closed, offsets[:-1], -1)[some]
-    starts = np.flatnonzero(following >= 0)
-    return np.stack([starts, following[starts]], axis=1)
-
-
 def joined(xy: FloatArray, edges: IntArray) -> IntArray:
     """Return edges between the first rows of equal points, without those of no length."""
     _, firsts, of_rows = np.unique(xy + 0.0, axis=0, return_index=True, return_inverse=True)
@@ -116,18 +106,15 @@ def joined(xy: FloatArray, edges: IntArray) -> IntArray:
     return different
 
 
-def geometries_of(curves: Curves, polygons: bool) -> tuple[Geometries, list[IntArray]]:
-    """Return each polygon, then each line, as a geometry, and the rows of the points of each.
+def geometries_of(curves: Curves, features: Sequence[Feature]) -> Geometries:
+    """Return each feature of curves as a geometry: a ring that is no polygon a closed LineString.
 
-    Rings that are no polygons are closed LineStrings; the isolated points are one MultiPoint at the
-    end. With heights, geometries have them.
+    The isolated points are a MultiPoint. With heights, geometries have them.
     """
     import shapely
 
     z = curves.points.z
     xyz = curves.points.xy if z is None else np.column_stack([curves.points.xy, z])
-    features = list(curves.features(polygons=polygons))
-    rows = [np.concatenate(feature.parts) for feature in features]
     made = np.empty(len(features), dtype=np.object_)
     for number, feature in enumerate(features):
         if feature.kind == "polygon":
@@ -137,11 +124,7 @@ def geometries_of(curves: Curves, polygons: bool) -> tuple[Geometries, list[IntA
             made[number] = shapely.multipoints(xyz[feature.parts[0]])
     lines = [k for k, feature in enumerate(features) if feature.kind == "line"]
     if lines:
-        runs = [_run(features[k].parts[0], features[k].closed) for k in lines]
+        runs = [features[k].runs[0] for k in lines]
         index = np.repeat(np.arange(len(runs)), [len(run) for run in runs])
         made[lines] = shapely.linestrings(xyz[np.concatenate(runs)], indices=index)
-    return made, rows
-
-
-def _run(rows: IntArray, closed: bool) -> IntArray:
-    return np.concatenate([rows, rows[:1]]) if closed else rows
+    return made

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from crustline.curves import Curves, trace
-from crustline.errors import FormatError, InputError
+from crustline.errors import FormatError
 from crustline.formats.attributes import attributes_of_points
 from crustline.formats.format import Format
 from crustline.formats.names import find_coordinates, find_pair, quote_all
@@ -44,7 +44,7 @@ def read_npy(source: Source, *, columns: Sequence[str | int] | None = None) -> P
             "choose columns by position"
         )
     names = [*"xyz", *(f"column{k}" for k in range(3, array.shape[1]))][: array.shape[1]]
-    return _from_arrays(dict(zip(names, array.T, strict=True)), source.name, columns)
+    return _from_arrays(dict(zip(names, array.T, strict=True)), source, columns)
 
 
 def read_npz(source: Source, *, columns: Sequence[str | int] | None = None) -> Points:
@@ -58,10 +58,8 @@ def read_npz_curves(source: Source) -> Curves:
     if not {"points", *_RESULT} <= arrays.keys():
         raise source.error(f"it holds no curves, only {quote_all(list(arrays))}: read its points")
     edges = _edges(arrays["indices"], arrays["offsets"], arrays["closed"], source)
-    try:
+    with source.named():
         return trace(_points_of(arrays, source, None), edges)
-    except InputError as error:
-        raise FormatError(f"{source.name}, {error}") from None
 
 
 def _points_of(
@@ -72,9 +70,9 @@ def _points_of(
     if "points" in arrays and columns is None:
         if set(_RESULT) <= arrays.keys():  # a result of ours: a ring of n points is no column
             arrays = {name: array for name, array in arrays.items() if name not in _RESULT}
-        points = _with_columns(arrays, names, source.name)
+        points = _with_columns(arrays, names, source)
     else:
-        points = _from_arrays(arrays, source.name, columns)
+        points = _from_arrays(arrays, source, columns)
     return points.replace(crs=crs)
 
 
@@ -182,21 +180,21 @@ def _as_word(array: Array | None) -> str | None:
 
 
 def _from_arrays(
-    arrays: dict[str, Array], source: str, columns: Sequence[str | int] | None
+    arrays: dict[str, Array], source: Source, columns: Sequence[str | int] | None
 ) -> Points:
     flat = {name: array for name, array in arrays.items() if array.ndim == 1}
     names = [name.removeprefix(_PREFIX) for name in flat]
     if columns is None and find_pair(names) is None:
         raise FormatError(
-            f"{source} holds the arrays {quote_all(list(arrays))}: name the points x and y, "
+            f"{source.name} holds the arrays {quote_all(list(arrays))}: name the points x and y, "
             "or points, or choose columns (--columns X,Y)"
         )
-    positions = find_coordinates(names, columns, source)
+    positions = find_coordinates(names, columns, source.name)
     chosen = [list(flat)[k] for k in positions]
     first, second, *height = (flat[name] for name in chosen)
     if len(first) != len(second):
         raise FormatError(
-            f"{source}: {chosen[0]!r} has {len(first)} rows, {chosen[1]!r} {len(second)}"
+            f"{source.name}: {chosen[0]!r} has {len(first)} rows, {chosen[1]!r} {len(second)}"
         )
     pair = (names[positions[0]], names[positions[1]])
     rest = {name: array for name, array in arrays.items() if name not in chosen}
@@ -205,7 +203,7 @@ def _from_arrays(
     )
 
 
-def _with_columns(arrays: dict[str, Array], names: Array | None, source: str) -> Points:
+def _with_columns(arrays: dict[str, Array], names: Array | None, source: Source) -> Points:
     rest = {name: array for name, array in arrays.items() if name not in ("points", "z")}
     pair = ("x", "y") if names is None or names.shape != (2,) else tuple(map(str, names))
     table, z = arrays["points"], arrays.get("z")
@@ -215,17 +213,15 @@ def _with_columns(arrays: dict[str, Array], names: Array | None, source: str) ->
 
 
 def _points(
-    table: Array, z: Array | None, rest: dict[str, Array], names: Sequence[str], source: str
+    table: Array, z: Array | None, rest: dict[str, Array], names: Sequence[str], source: Source
 ) -> Points:
     columns = {
         name.removeprefix(_PREFIX): array
         for name, array in rest.items()
         if array.shape == table.shape[:1]
     }
-    try:
+    with source.named():
         return Points(table, z=z, columns=columns, names=names)
-    except InputError as error:
-        raise FormatError(f"{source}, {error}") from None
 
 
 def _is_npz(head: bytes) -> bool:

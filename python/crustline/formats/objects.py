@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from crustline.curves import Curves
-from crustline.errors import InputError, missing_extra
+from crustline.errors import InputError, require
 from crustline.formats.attributes import attributes_of_points
 from crustline.formats.features import curve_columns
 from crustline.formats.geojson import collection_of
-from crustline.formats.geometries import geometries_of, points_of
+from crustline.formats.geometries import geometries_of, vertices_of
 from crustline.formats.names import find_pair
 from crustline.formats.options import COLUMNS
 from crustline.formats.parquet import points_of_table
@@ -38,10 +38,9 @@ def points_of_object(thing: Any, columns: Sequence[str | int] | None = None) -> 
     """
     if hasattr(thing, "geometry") and hasattr(thing, "crs"):
         return _of_geopandas(thing)
-    try:
-        import pyarrow as pa
-    except ImportError:
-        raise missing_extra("tables", "pyarrow") from None
+    require("tables", "pyarrow")
+    import pyarrow as pa
+
     source = Source(b"", f"<{type(thing).__name__}>")
     table = pa.table(thing)
     if columns is None and len(table.column_names) == 2 and find_pair(table.column_names) is None:
@@ -56,7 +55,7 @@ def _of_geopandas(frame: Any) -> Points:
         rest = frame.drop(columns=frame.geometry.name)
         columns = {str(name): _as_column(rest[name]) for name in rest.columns}
     crs = frame.crs
-    return points_of(geometries, columns, None if crs is None else crs.to_string())
+    return vertices_of(geometries).points(columns, None if crs is None else crs.to_string())
 
 
 def _as_column(series: Any) -> Any:
@@ -68,19 +67,19 @@ def _as_column(series: Any) -> Any:
 
 def to_shapely(curves: Curves, polygons: bool) -> list[Any]:
     """Return a geometry a polygon, line or ring, and a MultiPoint of the isolated points."""
-    return list(geometries_of(curves, polygons)[0])
+    return list(geometries_of(curves, list(curves.features(polygons=polygons))))
 
 
 def to_geopandas(curves: Curves, polygons: bool) -> Any:
     """Return a GeoDataFrame: a row a feature, with curve, closed, length, rows and columns."""
-    try:
-        import geopandas
-    except ImportError:
-        raise missing_extra("gis", "geopandas") from None
-    made, rows = geometries_of(curves, polygons)
-    columns = curve_columns(curves, rows, polygons)
-    columns["rows"] = [each.tolist() for each in rows]
-    return geopandas.GeoDataFrame(columns, geometry=list(made), crs=curves.points.crs)
+    require("gis", "geopandas")
+    import geopandas
+
+    features = list(curves.features(polygons=polygons))
+    columns = curve_columns(curves, features)
+    columns["rows"] = [feature.rows.tolist() for feature in features]
+    made = list(geometries_of(curves, features))
+    return geopandas.GeoDataFrame(columns, geometry=made, crs=curves.points.crs)
 
 
 def geo_interface(curves: Curves) -> dict[str, Any]:
@@ -90,10 +89,9 @@ def geo_interface(curves: Curves) -> dict[str, Any]:
 
 def to_networkx(curves: Curves) -> Any:
     """Return a networkx graph: a node a row of the points, and the edges with their length."""
-    try:
-        import networkx
-    except ImportError:
-        raise missing_extra("graphs", "networkx") from None
+    require("graphs", "networkx")
+    import networkx
+
     points = curves.points
     beside = attributes_of_points(points, reserved=("x", "y", "z"))
     columns = {"x": points.xy[:, 0], "y": points.xy[:, 1], **beside.columns}
@@ -112,10 +110,9 @@ def to_networkx(curves: Curves) -> Any:
 
 def to_scipy(curves: Curves) -> Any:
     """Return the symmetric sparse matrix (n, n) of the lengths of the edges."""
-    try:
-        from scipy.sparse import coo_array
-    except ImportError:
-        raise missing_extra("graphs", "scipy") from None
+    require("graphs", "scipy")
+    from scipy.sparse import coo_array
+
     i, j = curves.edges.T
     lengths = _lengths(curves)
     size = len(curves.points)
@@ -139,11 +136,9 @@ def to_pyvista(curves: Curves) -> Any:
     points = curves.points
     heights = np.zeros(len(points)) if points.z is None else points.z
     lines = [
-        np.concatenate([[len(run)], run])
-        for run in (
-            np.append(each.indices, each.indices[:1]) if each.closed else each.indices
-            for each in curves
-        )
+        np.append(len(run), run)
+        for feature in curves.features()
+        for run in (feature.runs if feature.kind == "line" else ())
     ]
     mesh = pyvista.PolyData(
         np.column_stack([points.xy, heights]),

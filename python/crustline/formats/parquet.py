@@ -9,18 +9,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from crustline.arrays import IntArray
 from crustline.curves import Curves
 from crustline.errors import InputError
 from crustline.formats.arrow import as_table, as_wkb, column_of, points_of_wkb
 from crustline.formats.attributes import attributes_of_points
 from crustline.formats.features import curve_columns
 from crustline.formats.format import Format
-from crustline.formats.geometries import (
-    curves_of,
-    geometries_of,
-    points_of,
-    vertices_of,
-)
+from crustline.formats.geometries import from_wkb, geometries_of, vertices_of
 from crustline.formats.names import find_coordinates
 from crustline.formats.options import COLUMNS, POLYGONS
 from crustline.formats.source import Source
@@ -75,8 +71,9 @@ def read_curves(source: Source) -> Curves:
     if about is None:
         raise source.error("it is a table without geometries: read points from it")
     name, crs = about
-    with source.library("shapely"):
-        return curves_of(_geometries(table.column(name)), _columns(table, [name]), crs)
+    with source.named(), source.library("shapely"):
+        found = vertices_of(from_wkb(table.column(name)))
+        return found.curves(found.points(_columns(table, [name]), crs))
 
 
 def _sound(table: Any) -> Any:
@@ -87,31 +84,28 @@ def _sound(table: Any) -> Any:
 
 def _points(table: Any, source: Source, columns: Chosen) -> Points:
     about = None if columns is not None else _geometry(table, source)
-    try:
+    with source.named():
         if about is None:
             return points_of_table(table, source, columns)
         return _of(table, source, *about)
-    except InputError as error:
-        raise source.error(str(error)) from None
 
 
 def _of(table: Any, source: Source, name: str, crs: str | None) -> Points:
     array = table.column(name)
-    xyz = points_of_wkb(array)
+    xyz, rest = points_of_wkb(array), _columns(table, [name, "bbox"])
     if xyz is None:
         with source.library("shapely"):
-            geometries = _geometries(array)
-        points = points_of(geometries, _columns(table, [name, "bbox"]), crs)
-        return points.replace(columns={**points.columns, **_lists_a_vertex(table, geometries)})
-    rest = _columns(table, [name, "bbox"])
+            found = vertices_of(from_wkb(array))
+        points = found.points(rest, crs)
+        counts = np.bincount(found.owners, minlength=len(array))
+        return points.replace(columns={**points.columns, **_lists_a_vertex(table, counts)})
     return Points(xyz[:, :2], z=xyz[:, 2] if xyz.shape[1] == 3 else None, columns=rest, crs=crs)
 
 
-def _lists_a_vertex(table: Any, geometries: npt.NDArray[np.object_]) -> dict[str, npt.NDArray[Any]]:
+def _lists_a_vertex(table: Any, counts: IntArray) -> dict[str, npt.NDArray[Any]]:
     """Return the columns of lists that have a value for each vertex, spread over them."""
     import pyarrow as pa
 
-    counts = np.bincount(vertices_of(geometries).owners, minlength=len(geometries))
     lists = [each.name for each in table.schema if pa.types.is_list(each.type)]
     return {
         name: column_of(pa.compute.list_flatten(table.column(name)).combine_chunks())
@@ -183,13 +177,6 @@ def _crs_name(crs: Any) -> str | None:
     return str(pyproj.CRS.from_json_dict(crs).to_wkt())
 
 
-def _geometries(array: Any) -> npt.NDArray[np.object_]:
-    import shapely
-
-    made: npt.NDArray[np.object_] = shapely.from_wkb(array.to_numpy())
-    return made
-
-
 # Writing
 
 
@@ -204,8 +191,9 @@ def write_curves(curves: Curves, target: Target, *, polygons: bool = False) -> N
     import pyarrow as pa
     import shapely
 
-    made, rows = geometries_of(curves, polygons)
-    columns: dict[str, Any] = curve_columns(curves, rows, polygons, lists=True)
+    features = list(curves.features(polygons=polygons))
+    made = geometries_of(curves, features)
+    columns = curve_columns(curves, features, lists=True)
     kinds = {shapely.get_type_id(each): each.geom_type for each in made}
     columns[_GEOMETRY] = pa.array(list(shapely.to_wkb(made, flavor="iso")), pa.binary())
     z = "" if curves.points.z is None else " Z"

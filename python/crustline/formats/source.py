@@ -138,6 +138,14 @@ class Source:
         """Return the error about a fault at a place, such as "line 3"."""
         return FormatError(f"{self.name}{', ' if place else ''}{place}: {fault}")
 
+    @contextmanager
+    def named(self) -> Iterator[None]:
+        """Name the source in what is said of points that do not fit."""
+        try:
+            yield
+        except InputError as error:
+            raise FormatError(f"{self.name}, {error}") from None
+
     def warn(self, doubt: str) -> None:
         """Warn of what was read although it is doubtful; name the option that says otherwise."""
         warnings.warn(f"{self.name}: {doubt}", FormatWarning, stacklevel=2)

@@ -21,7 +21,7 @@ from crustline.errors import CrustlineError, FormatError, FormatWarning, InputEr
 from crustline.formats.arrow import as_table, as_wkb, column_of, points_of_wkb
 from crustline.formats.features import curve_columns
 from crustline.formats.format import Format, Layer
-from crustline.formats.geometries import curves_of, geometries_of, points_of
+from crustline.formats.geometries import from_wkb, geometries_of, vertices_of
 from crustline.formats.names import quote_all
 from crustline.formats.options import LAYER, POLYGONS, WHERE
 from crustline.formats.source import Source
@@ -100,15 +100,12 @@ class _Driver:
         wkb = table.column(_GEOMETRY)
         columns = self._columns(table)
         xyz = points_of_wkb(wkb)
-        with source.library("GDAL"):
+        with source.named(), source.library("GDAL"):
             if xyz is None:
-                return points_of(_geometries(wkb), columns, crs)
-        heights = columns.pop(self.height, None)
-        z = xyz[:, 2] if xyz.shape[1] == 3 else heights
-        try:
+                return vertices_of(from_wkb(wkb)).points(columns, crs)
+            heights = columns.pop(self.height, None)
+            z = xyz[:, 2] if xyz.shape[1] == 3 else heights
             return Points(xyz[:, :2], z=z, columns=columns, crs=crs)
-        except InputError as error:
-            raise source.error(str(error)) from None
 
     def read_curves(
         self, source: Source, *, layer: str | None = None, where: str | None = None
@@ -116,8 +113,9 @@ class _Driver:
         """Return the lines and rings of a layer."""
         with source.path(self.suffix) as path:
             table, crs = self._table(source, path, layer, where)
-        with source.library("GDAL"):
-            return curves_of(_geometries(table.column(_GEOMETRY)), self._columns(table), crs)
+        with source.named(), source.library("GDAL"):
+            found = vertices_of(from_wkb(table.column(_GEOMETRY)))
+            return found.curves(found.points(self._columns(table), crs))
 
     def layers(self, source: Source) -> list[Layer]:
         """Return the layers that hold geometries."""
@@ -286,13 +284,6 @@ def _layers(path: Path) -> list[Layer]:
     ]
 
 
-def _geometries(wkb: Any) -> npt.NDArray[np.object_]:
-    import shapely
-
-    made: npt.NDArray[np.object_] = shapely.from_wkb(wkb.to_numpy())
-    return made
-
-
 def _write_rows(table: Any, path: Path, options: dict[str, Any]) -> None:
     import pyogrio.raw
 
@@ -323,10 +314,11 @@ def _parts(curves: Curves, polygons: bool, name: str) -> Iterator[_Part]:
     import pyarrow as pa
     import shapely
 
-    made, rows = geometries_of(curves, polygons)
+    features = list(curves.features(polygons=polygons))
+    made = geometries_of(curves, features)
     table = as_table(
         {
-            **curve_columns(curves, rows, polygons),
+            **curve_columns(curves, features),
             _GEOMETRY: pa.array(list(shapely.to_wkb(made)), pa.binary()),
         }
     )

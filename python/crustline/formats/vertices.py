@@ -11,7 +11,6 @@ import numpy.typing as npt
 
 from crustline.arrays import FloatArray, IntArray
 from crustline.curves import Curves, trace
-from crustline.errors import FormatError, InputError
 from crustline.formats.source import Source
 from crustline.points import Points
 
@@ -71,10 +70,8 @@ class Vertices:
     def points(self, coordinates: FloatArray, **beside: Any) -> Points:
         """Return coordinates as points; what does not fit is named by the source."""
         z = coordinates[:, 2] if coordinates.shape[1] == 3 else None
-        try:
+        with self.source.named():
             return Points(coordinates[:, :2], z=z, **beside)
-        except InputError as error:
-            raise FormatError(f"{self.source.name}, {error}") from None
 
     def curves(self, points: Points) -> Curves:
         """Return the points, joined as the parts join them."""

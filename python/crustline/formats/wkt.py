@@ -248,16 +248,13 @@ def _lines(curves: Curves, polygons: bool) -> Iterator[str]:
     reference = "" if code is None else f"SRID={code};"
     dimension = "" if attributes.z is None else " Z"
 
-    def text(rows: IntArray, closed: bool) -> str:
+    def text(rows: IntArray) -> str:
         numbers = coordinates_with_height(curves, rows).T.tolist()
-        positions = list(map(" ".join, zip(*(map(repr, each) for each in numbers), strict=True)))
-        return f"({', '.join(positions + positions[:1] * closed)})"
+        positions = map(" ".join, zip(*(map(repr, each) for each in numbers), strict=True))
+        return f"({', '.join(positions)})"
 
     for feature in curves.features(polygons=polygons):
-        if feature.kind == "points":
-            parts = [text(feature.parts[0][k : k + 1], False) for k in range(len(feature.parts[0]))]
-        else:
-            parts = [text(part, feature.closed) for part in feature.parts]
+        parts = list(map(text, feature.rows[:, None] if feature.kind == "points" else feature.runs))
         body = parts[0] if feature.kind == "line" else f"({', '.join(parts)})"
         yield f"{reference}{_WORDS[feature.kind]}{dimension} {body}"
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from crustline import _core
 from crustline.arrays import FloatArray, IntArray, as_edges, not_too_deep
-from crustline.delaunay import Delaunay, How, Made, Progress, as_threads, points_and_how
+from crustline.delaunay import Delaunay, How, Made, points_and_how
 from crustline.errors import InputError
 from crustline.methods.connect import connect
 from crustline.methods.parameters import as_method
@@ -20,9 +20,6 @@ def by_group(
     points: ArrayLike | Delaunay,
     groups: ArrayLike,
     method: Callable[..., IntArray] = connect,
-    *,
-    threads: int | None = None,
-    progress: Progress | None = None,
     **parameters: Any,
 ) -> IntArray:
     """Return the edges that a method selects within each group of points.
@@ -30,16 +27,12 @@ def by_group(
     Parameters
     ----------
     points : array_like of float, shape (n, 2), or Delaunay
-        Coordinates, in any one unit. Finite. Points that are equal count once in each group.
+        Coordinates, in any one unit. Finite. Points that are equal count once in each group. A
+        `Delaunay` brings its threads and progress.
     groups : array_like, shape (n,)
         The group of each point: numbers, text, dates, or objects that can be sorted.
     method : callable, default `connect`
         A method: the library's own, or any function from points to edges.
-    threads : int, optional
-        How many threads to use; by default those of a `Delaunay`, or `RAYON_NUM_THREADS`, or one a
-        core. The result is the same for any number.
-    progress : callable, optional
-        Called now and then with the name of a stage and the fraction of it that is done.
     **parameters
         The parameters of the method.
 
@@ -72,9 +65,8 @@ def by_group(
     carried, how = points_and_how(points)
     as_method(method, parameters)
     _refuse_rows(method, parameters)
-    threads = how[0] if threads is None else as_threads(threads)
     rows, ends = _split(groups, len(carried))
-    at_once = _Groups(carried.xy, rows, ends, (threads, how[1] if progress is None else progress))
+    at_once = _Groups(carried.xy, rows, ends, how)
     if getattr(method, "__module__", "").startswith("crustline."):
         try:
             return method(at_once, **parameters)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crustline.arrays import FloatArray
-from crustline.errors import missing_extra
+from crustline.errors import require
 from crustline.path import CLOSE, LINE, MOVE, Path
 from crustline.plot.crowd import thinned
 
@@ -23,16 +23,9 @@ BLUE, VERMILLION, PURPLE = "#0072B2", "#D55E00", "#CC79A7"
 CHUNK = 10_000
 
 
-def require_matplotlib() -> None:
-    try:
-        import matplotlib  # noqa: F401  # whether it is there is the question
-    except ImportError as error:
-        raise missing_extra("plot", "matplotlib") from error
-
-
 def axes(ax: Axes | None, xy: FloatArray) -> Axes:
     """Return the Axes given, or new ones, of equal aspect, that show at least the points `xy`."""
-    require_matplotlib()
+    require("plot", "matplotlib")
     if ax is None:
         ax = _new_axes(xy)
     elif ax.get_aspect() == "auto":

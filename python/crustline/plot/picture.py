@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
 
-from crustline.errors import InputError
+from crustline.errors import InputError, require
 from crustline.plot.axes import (
     axes,
-    require_matplotlib,
 )
 from crustline.plot.certificate import plot_certificate
 from crustline.plot.curves import plot_curves
@@ -85,7 +84,7 @@ def picture(
     _check_choice("suffix", path.suffix.lower(), SUFFIXES)
     for layer in show:
         _check_choice("layer", layer, tuple(LAYERS))
-    require_matplotlib()
+    require("plot", "matplotlib")
     from matplotlib import rc_context, rcdefaults
 
     made = as_reconstruction(points)

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from crustline.arrays import FloatArray, as_points, not_too_deep
-from crustline.errors import InputError, missing_extra
+from crustline.errors import InputError, require
 from crustline.scalars import as_positive, as_real, as_size, as_whole
 from crustline.shapes.curve import (
     NARROWEST,
@@ -334,10 +334,9 @@ def spline(points: npt.ArrayLike) -> SmoothCurve:
     chords = np.hypot(*np.diff(closed, axis=0).T)
     if not np.all(chords > 0):
         raise InputError(f"point {int(np.argmin(chords > 0))} equals the one that follows it")
-    try:
-        from scipy.interpolate import CubicSpline
-    except ImportError:
-        raise missing_extra("smooth", "scipy") from None
+    require("smooth", "scipy")
+    from scipy.interpolate import CubicSpline
+
     knots = np.concatenate([[0.0], np.cumsum(chords)])
     cubic = CubicSpline(knots / knots[-1], closed, bc_type="periodic")
     return SmoothCurve((Loop(partial(_cubic, cubic), pieces=len(rows)),))

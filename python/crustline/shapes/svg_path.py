@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from crustline.arrays import FloatArray
-from crustline.errors import FormatError, InputError, missing_extra, shown
+from crustline.errors import FormatError, InputError, require, shown
 from crustline.scalars import as_real
 from crustline.shapes.bezier import bezier_loop, smoothed
 from crustline.shapes.curve import SmoothCurve
@@ -66,10 +66,9 @@ def bezier_path(source: str | os.PathLike[str], *, smooth_joins: float = 1.0) ->
 
 def _svg_subpaths(source: str | os.PathLike[str]) -> list[FloatArray]:
     """Return each subpath's cubic pieces, as control points of shape (s, 4, 2)."""
-    try:
-        import svgelements  # type: ignore[import-untyped]
-    except ImportError:
-        raise missing_extra("svg", "svgelements") from None
+    require("svg", "svgelements")
+    import svgelements  # type: ignore[import-untyped]
+
     if not isinstance(source, str | os.PathLike):
         raise InputError(f"source is {shown(source)}: give the name of a .svg file, or a path's d")
     name = os.fspath(source)

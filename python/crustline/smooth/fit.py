@@ -23,7 +23,7 @@ import numpy as np
 
 from crustline.arrays import FloatArray, IntArray
 from crustline.curves import Curve, Curves
-from crustline.errors import InputError, missing_extra, shown
+from crustline.errors import InputError, require, shown
 from crustline.scalars import as_choice, as_degrees
 from crustline.smooth.cubics import Run
 from crustline.smooth.spline import Spline
@@ -99,20 +99,13 @@ def smooth(
     >>> bool(abs(np.hypot(*middle[0]) - 1) < 2e-5), round(ring.length / (2 * np.pi), 4)
     (True, 1.0)
     """
-    _require_scipy()
+    require("smooth", "scipy")
     angle = math.radians(as_degrees("corner_angle", corner_angle))
     as_choice("ends", ends, get_args(Ends))
     if not isinstance(curves, Curves):
         raise InputError(f"curves is {shown(curves)}: pass what trace or reconstruct returns")
     splines = (_spline(_line(curve, angle), ends == "natural") for curve in curves)
     return Splines(curves, tuple(splines))
-
-
-def _require_scipy() -> None:
-    try:
-        import scipy.interpolate  # noqa: F401
-    except ImportError:
-        raise missing_extra("smooth", "scipy") from None
 
 
 @dataclass(frozen=True, eq=False)
