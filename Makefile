@@ -4,7 +4,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
-SOURCES := $(shell find crates python -name '*.rs' -o -name '*.pyi' -o -name 'Cargo.toml') Cargo.toml Cargo.lock pyproject.toml
+SOURCES := $(shell find crates/core crates/py python -name '*.rs' -o -name '*.pyi' -o -name 'Cargo.toml') Cargo.toml Cargo.lock pyproject.toml
 PIP := $(BIN)/pip --quiet --disable-pip-version-check install
 
 # What CI runs on has all packages pinned, with their hashes; others take what fits.
@@ -42,7 +42,7 @@ test-all: test ## The same and the slow tests.
 	$(BIN)/pytest -m slow
 
 test-rust: ## Test the core.
-	cargo test --workspace --release --quiet
+	cargo test --release --quiet
 
 test-python: build ## Test the Python package, docstring examples included.
 	$(BIN)/pytest
@@ -52,7 +52,7 @@ test-busy: build ## Run pytest RUNS times (default 5) while four processes keep 
 
 lint: build ## Check formatting and lints of both languages.
 	cargo fmt --check
-	cargo clippy --workspace --all-targets --release --quiet -- -D warnings
+	cargo clippy --all-targets --release --quiet -- -D warnings
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 

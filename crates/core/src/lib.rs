@@ -6,6 +6,7 @@
 //! no global state but the memory that a thread works in; parallel work runs on the current rayon pool and never changes an answer.
 
 mod adjacency;
+pub mod certificate;
 pub mod certify;
 mod cocircular;
 pub mod connect;

@@ -1,0 +1,154 @@
+//! The reasons of a certificate: at which points and edges the conditions of a theorem of the paper fail, and which.
+
+use crate::certify::{Measures, measure};
+use crate::delaunay::Delaunay;
+use crate::edges::Edges;
+use crate::error::Result;
+use crate::interpolant::Interpolant;
+use crate::methods::{Kind, beta_skeleton, crust, is_beta_skeleton};
+use crate::progress::Progress;
+
+/// What a caller knows of the theorems.
+#[derive(Debug, Clone, Copy)]
+pub struct Theorems {
+    /// The β that Theorem 20 is about.
+    pub beta: f64,
+    /// Samples denser than this have the β-skeleton as their curve.
+    pub of_skeleton: f64,
+    /// Samples denser than this have the crust as their curve.
+    pub of_crust: f64,
+    /// What an estimate is increased by, as a part of it, before it is compared.
+    pub margin: f64,
+}
+
+/// The theorem whose edges these are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Theorem {
+    /// Theorems 14 and 15.
+    Crust,
+    /// Theorem 20.
+    BetaSkeleton,
+}
+
+/// Why a point or an edge is weak; a later reason outweighs those before it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u8)]
+pub enum Reason {
+    /// It is not.
+    #[default]
+    None,
+    /// The samples are too sparse for the theorem.
+    Undersampled,
+    /// An edge of the crust is not there.
+    Missing,
+    /// The polygon turns by more than a sampled smooth curve can.
+    Corner,
+    /// A point with one edge.
+    Endpoint,
+    /// A point with more than two edges.
+    Branch,
+    /// A point without an edge.
+    Isolated,
+    /// An edge that the crust does not have.
+    Unselected,
+}
+
+/// What holds of edges, where it does not, and why.
+#[derive(Debug, Clone)]
+pub struct Certificate {
+    /// The theorem that is about such edges, if there is one.
+    pub theorem: Option<Theorem>,
+    /// The sampling ratio that the theorem asks for, or, without one, that of the β-skeleton's.
+    pub threshold: f64,
+    /// Does the theorem apply everywhere, as far as samples tell?
+    pub guaranteed: bool,
+    /// The sampling ratio of each edge.
+    pub ratios: Vec<f64>,
+    /// For each edge why it is weak.
+    pub edges: Vec<Reason>,
+    /// For each row why it is weak.
+    pub points: Vec<Reason>,
+}
+
+/// Certify `edges`, which are canonical and have been made smooth.
+///
+/// # Errors
+/// A cancelled `progress`.
+pub fn certify(
+    delaunay: &Delaunay,
+    edges: &Edges,
+    smooth: &Interpolant,
+    theorems: &Theorems,
+    progress: &Progress,
+) -> Result<Certificate> {
+    let Measures { ratios, turns, degrees } = measure(delaunay, edges, smooth, progress)?;
+    let (theorem, proven) = theorem(delaunay, edges, smooth, theorems, progress)?;
+    let threshold = match theorem {
+        Some(Theorem::Crust) => theorems.of_crust,
+        _ => theorems.of_skeleton,
+    };
+    // A sample angle is at least π less this (paper, Lemma 10).
+    let most = 4.0 * libm::asin(threshold / 2.0);
+    let degree = |row: usize| reason_of_degree(degrees[row], turns[row] > most);
+    let mut points: Vec<Reason> = (0..degrees.len()).map(degree).collect();
+    for row in without(&proven, edges).flatten() {
+        points[*row as usize] = points[*row as usize].max(Reason::Missing);
+    }
+    let is_sparse = |k: usize| !((1.0 + theorems.margin) * ratios[k] < threshold);
+    let mut of_edges: Vec<Reason> =
+        (0..edges.len()).map(|k| reason_of_edge(edges[k], &points, is_sparse(k))).collect();
+    for edge in without(edges, &proven) {
+        let k = edges.binary_search(edge).unwrap_or_default();
+        of_edges[k] = Reason::Unselected;
+    }
+    for (edge, _) in edges.iter().zip(&of_edges).filter(|(_, why)| **why == Reason::Undersampled) {
+        for &row in edge {
+            points[row as usize] = points[row as usize].max(Reason::Undersampled);
+        }
+    }
+    let sound = points.iter().chain(&of_edges).all(|&reason| reason == Reason::None);
+    let guaranteed = theorem.is_some() && !edges.is_empty() && sound;
+    Ok(Certificate { theorem, threshold, guaranteed, ratios, edges: of_edges, points })
+}
+
+/// The theorem about these edges, and the edges that a theorem is about.
+fn theorem(
+    delaunay: &Delaunay,
+    edges: &Edges,
+    smooth: &Interpolant,
+    theorems: &Theorems,
+    progress: &Progress,
+) -> Result<(Option<Theorem>, Edges)> {
+    let is_skeleton = if delaunay.duplicates().is_empty() {
+        is_beta_skeleton(delaunay, theorems.beta, smooth.curve(), progress)?
+    } else {
+        beta_skeleton(delaunay, theorems.beta, Kind::Circle, progress)? == *edges
+    };
+    if is_skeleton {
+        return Ok((Some(Theorem::BetaSkeleton), edges.clone()));
+    }
+    let crust = crust(delaunay, progress)?;
+    Ok(((crust == *edges).then_some(Theorem::Crust), crust))
+}
+
+fn reason_of_degree(degree: u32, is_corner: bool) -> Reason {
+    match degree {
+        0 => Reason::Isolated,
+        1 => Reason::Endpoint,
+        2 if is_corner => Reason::Corner,
+        2 => Reason::None,
+        _ => Reason::Branch,
+    }
+}
+
+fn reason_of_edge(edge: [u32; 2], points: &[Reason], is_sparse: bool) -> Reason {
+    let is_breaking = |reason: &Reason| (Reason::Corner..=Reason::Branch).contains(reason);
+    let ends = edge.map(|row| points[row as usize]).into_iter().filter(is_breaking);
+    let own = if is_sparse { Reason::Undersampled } else { Reason::None };
+    ends.fold(own, Reason::max)
+}
+
+/// The edges that are not among `others`; both are canonical.
+fn without<'a>(edges: &'a Edges, others: &'a Edges) -> impl Iterator<Item = &'a [u32; 2]> {
+    edges.iter().filter(|edge| others.binary_search(edge).is_err())
+}
