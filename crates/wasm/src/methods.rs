@@ -1,7 +1,7 @@
 //! The methods by name, with the parameters that users give.
 
 use crate::arrays::{points, run};
-use crustline_core::connect::{CONSTANTS, connect};
+use crustline_core::connect::{CONSTANTS, Hints, connect};
 use crustline_core::edges::Edges;
 use crustline_core::{Delaunay, Progress, Result, methods};
 use wasm_bindgen::prelude::*;
@@ -14,7 +14,7 @@ pub fn select(
     progress: &Progress,
 ) -> Result<Edges> {
     match (name, given) {
-        ("connect", []) => connect(delaunay, &CONSTANTS, progress),
+        ("connect", []) => connect(delaunay, &CONSTANTS, &Hints::default(), progress),
         // The core decides by a cotangent or a sine, which it takes as exact.
         ("compatible-crust", &[angle]) => {
             methods::select(delaunay, name, &[1.0 / libm::tan(angle)], progress)
