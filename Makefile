@@ -4,6 +4,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
+STATIC := python/crustline/editor/static
 SOURCES := $(shell find crates/core crates/py python -name '*.rs' -o -name '*.pyi' -o -name 'Cargo.toml') Cargo.toml Cargo.lock pyproject.toml
 PIP := $(BIN)/pip --quiet --disable-pip-version-check install
 
@@ -12,7 +13,7 @@ LOCK := requirements/ci.txt
 PINNED := 3.11 linux x86_64
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo test test-all test-rust test-python test-busy lint types audit lock format accuracy bench bench-quick bench-instructions fuzz fuzz-readers man figures experiment wheel clean
+.PHONY: help build demo test test-all test-rust test-python test-busy lint types audit lock format accuracy bench bench-quick bench-instructions fuzz fuzz-readers man figures experiment wheel clean editor page test-editor
 
 help: ## Show this list.
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-20s %s\n", $$1, $$2}'
@@ -104,6 +105,23 @@ man: build ## Write the manual pages of the command into man/.
 fuzz-readers: build ## Mutate files and read them, COUNT of each format (default 50,000).
 	$(BIN)/python tests/fuzz/readers.py --count $(or $(COUNT),50000) --seed $(or $(SEED),1)
 
+editor: build ## Build the editor: the module, the page and the widget, which crustline edit and notebooks use.
+	crates/wasm/build editor/build/module
+	cd editor && npm ci --silent --no-audit --no-fund
+	$(BIN)/python editor/data.py editor/build/data
+	cd editor && npx tsc && node build.mjs
+	mkdir -p $(STATIC) && cp editor/build/page/* editor/build/widget.js $(STATIC)
+
+page: editor ## Build the static page into dist/page: any static host serves it, as does python -m http.server.
+	rm -rf dist/page && mkdir -p dist && cp -r editor/build/page dist/page
+	@echo "Try it: $(PYTHON) -m http.server --directory dist/page"
+
+test-editor: editor ## Test the editor: its model, the module against the library, and the page in a headless Chromium.
+	cargo clippy --release --quiet --package crustline-wasm -- -D warnings
+	cd editor && npm test --silent
+	$(BIN)/pip install --quiet --disable-pip-version-check playwright marimo
+	$(BIN)/pytest editor/tests
+
 figures: build ## Redraw the paper's figures into docs/gallery/.
 	$(BIN)/python -m figures
 
@@ -119,4 +137,4 @@ wheel: ## Build a wheel, and test it in an environment that holds NumPy and noth
 	dist/wheel/minimal/bin/python tests/test_minimal.py
 
 clean: ## Remove what was built.
-	rm -rf target dist $(VENV) demo benchmarks/build python/crustline/*.so
+	rm -rf target dist $(VENV) demo benchmarks/build python/crustline/*.so $(STATIC) editor/build editor/node_modules

@@ -338,6 +338,15 @@ class Curves(Record, Sequence[Curve]):
 
         return plot_curves(self, ax, **options)
 
+    def edit(self, **options: Any) -> Any:
+        """Return a widget that shows the points and their curves, to draw and drag in a notebook.
+
+        See `crustline.editor.widget`, which takes the options.
+        """
+        from crustline.editor import widget
+
+        return widget(self.points, **options)
+
     def _repr_svg_(self) -> str:
         """Return the picture that notebooks show."""
         from crustline.formats.svg import picture_of_curves

@@ -94,7 +94,8 @@ pub fn certify(
     for row in without(&proven, edges).flatten() {
         points[*row as usize] = points[*row as usize].max(Reason::Missing);
     }
-    let is_sparse = |k: usize| !((1.0 + theorems.margin) * ratios[k] < threshold);
+    let is_sparse =
+        |k: usize| ratios[k].is_nan() || (1.0 + theorems.margin) * ratios[k] >= threshold;
     let mut of_edges: Vec<Reason> =
         (0..edges.len()).map(|k| reason_of_edge(edges[k], &points, is_sparse(k))).collect();
     for edge in without(edges, &proven) {

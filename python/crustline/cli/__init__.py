@@ -18,6 +18,7 @@ import click
 from crustline.cli.batch import batch
 from crustline.cli.certify import certify
 from crustline.cli.completion import completion
+from crustline.cli.edit import edit
 from crustline.cli.encoding import spell_out
 from crustline.cli.info import convert, info
 from crustline.cli.medial_axis import medial_axis
@@ -109,6 +110,6 @@ def commands(context: click.Context) -> None:
 
 for _command in (
     reconstruct, batch, info, certify, smooth, plot, medial_axis, thin, sample, convert,
-    list_methods, completion,
+    list_methods, edit, completion,
 ):  # fmt: skip
     commands.add_command(_command)
