@@ -5,6 +5,7 @@ from __future__ import annotations
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
@@ -15,9 +16,11 @@ ROOT = Path(__file__).parents[2]
 BUILT = ROOT / "editor" / "build"
 EXAMPLES = ROOT / "examples"
 
+PATIENCE_SECONDS = 30
+
 _WITH_APP = """(() => {
     const element = document.querySelector('.crustline');
-    const app = element.app;
+    const app = element?.app;
     return %s;
 })()"""
 
@@ -48,7 +51,11 @@ class Editor:
 
     def wait(self, condition: str) -> None:
         """Wait until JavaScript with `app`, and its `element`, is true."""
-        self.page.wait_for_function(_WITH_APP % condition)
+        # Playwright's own waiting needs eval, which the served page forbids.
+        end = time.monotonic() + PATIENCE_SECONDS
+        while not self.app(condition):
+            assert time.monotonic() < end, f"still not so: {condition}"
+            time.sleep(0.02)
 
     def wait_for_status(self, words: str) -> None:
         self.wait(f"document.querySelector('.status').textContent.includes({words!r})")

@@ -119,7 +119,7 @@ def edited(points: Points, xy: FloatArray, rows: IntArray) -> tuple[Points, str]
     z, warning = points.z, ""
     added = int((rows < 0).sum())
     if z is not None and added:
-        name = "z" if "z" not in columns else "height"
+        name = "heights"  # formats keep z for heights of all points
         columns[name] = _extended(z, rows)
         warning = (
             f"{added} new points have no height: the heights are saved as the column {name}, "

@@ -48,6 +48,7 @@ def serve(
         listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             listener.bind(("127.0.0.1", port))
+            listener.listen()  # from here on a browser may come
         except OSError as error:
             raise InputError(f"port {port} cannot be used: {error.strerror}") from None
         site = Site(listener.getsockname()[1], limit, first)
