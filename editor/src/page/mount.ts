@@ -69,7 +69,7 @@ export function mount(root: HTMLElement, server: Server | null): App {
   const files = new Files(app, server);
   Object.assign(app.element, { files });
   const commands = new Commands(app, files);
-  root.append(app.element);
+  root.append(h("div", { class: "crustline-frame" }, app.element));
   let next = (): void => undefined;
   app.stage.element.append(hints(app));
   app.element.append(h("style", {}, style), bar(app, files, commands, () => next()), toolbox(app, commands), app.stage.element, app.panel.element);
@@ -85,7 +85,7 @@ export function mountFigure(root: HTMLElement, figure: Figure): App {
   const app = new App();
   Object.assign(app.element, { app });
   app.element.classList.add("figure");
-  root.append(app.element);
+  root.append(h("div", { class: "crustline-frame" }, app.element));
   const control = figure.slider ? controlOf(app, figure.slider) : "";
   app.element.append(h("style", {}, style), app.stage.element, h("figcaption", {}, h("span", {}, figure.title), control));
   themes(app);

@@ -12,6 +12,9 @@ interface Model {
   save_changes(): void;
 }
 
+/** Milliseconds without a change after which Python is told. */
+const PAUSE = 120;
+
 function numbers(value: unknown): Float64Array {
   const view = value as DataView | undefined;
   if (!view?.byteLength) return new Float64Array(0);
@@ -30,18 +33,22 @@ function render({ model, el }: { model: Model; el: HTMLElement }): () => void {
     app.restore({ document: { ...blank(), cloud: opened(numbers(model.get("_xy"))), choice: choose(method) }, layers: [] });
   };
   read();
-  app.watchers.push({
-    changed: ({ document: { cloud, choice } }) => {
-      own = true;
-      model.set("_xy", new DataView(cloud.xy.slice().buffer));
-      model.set("_rows", new DataView(cloud.rows.slice().buffer));
-      model.set("method", choice.method);
-      model.set("parameters", [...choice.parameters]);
-      model.save_changes();
-      own = false;
-    },
-    answered: () => undefined,
-  });
+  const send = (): void => {
+    const { cloud, choice } = app.document;
+    own = true;
+    model.set("_xy", new DataView(cloud.xy.slice().buffer));
+    model.set("_rows", new DataView(cloud.rows.slice().buffer));
+    model.set("method", choice.method);
+    model.set("parameters", [...choice.parameters]);
+    model.save_changes();
+    own = false;
+  };
+  let timer = 0;
+  const changed = (): void => {
+    clearTimeout(timer);
+    timer = window.setTimeout(send, PAUSE);
+  };
+  app.watchers.push({ changed, answered: () => undefined });
   model.on("change:_xy", read);
   return () => {
     model.off("change:_xy", read);
