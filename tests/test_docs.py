@@ -24,6 +24,7 @@ PAGES = sorted(
 )
 #: Commands that need no input to show.
 WITHOUT_EXAMPLE = {"methods"}
+UNTIL_CLOSED = {"edit"}  # editor/tests runs it, in a browser
 BLOCK = re.compile(r"```(\w*)\n(.*?)```|((?:^(?: {4}.*)?\n)+)", re.DOTALL | re.MULTILINE)
 
 
@@ -90,7 +91,7 @@ def test_what_help_shows_runs(name, capfd):
         pytest.importorskip(module)
     shown = commands(entry.commands[name].help or "")
     assert shown or name in WITHOUT_EXAMPLE
-    for arguments in shown:
+    for arguments in shown if name not in UNTIL_CLOSED else ():
         run(arguments, capfd)
 
 

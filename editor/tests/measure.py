@@ -69,6 +69,7 @@ def measure(browser: Browser, address: str, count: int) -> tuple[float, float, f
     editor.page.evaluate(FILL, count)
     editor.settle()
     gaps = editor.page.evaluate(FRAMES)
+    editor.app("app.fit()")
     times = drags(editor, "crust"), drags(editor, "connect")
     editor.page.close()
     return *times, 1000 / float(np.mean(gaps))

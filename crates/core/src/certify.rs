@@ -94,5 +94,5 @@ fn turn(delaunay: &Delaunay, curve: &Adjacency, v: u32) -> f64 {
     let &[(a, _), (b, _)] = curve.of(v) else { return 0.0 };
     let at = delaunay.point(v);
     let (u, w) = (sub(at, delaunay.point(a)), sub(delaunay.point(b), at));
-    cross(u, w).atan2(dot(u, w)).abs()
+    libm::atan2(cross(u, w), dot(u, w)).abs()
 }

@@ -36,5 +36,5 @@ pub fn lexicographic(a: &Point, b: &Point) -> std::cmp::Ordering {
 #[must_use]
 pub fn length(v: Point) -> f64 {
     let square = dot(v, v);
-    if square.is_normal() { square.sqrt() } else { v[0].hypot(v[1]) }
+    if square.is_normal() { square.sqrt() } else { libm::hypot(v[0], v[1]) }
 }

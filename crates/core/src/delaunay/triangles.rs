@@ -97,7 +97,7 @@ impl Delaunay {
     pub fn circumradii(&self) -> Vec<f64> {
         self.map_triangles(|[a, b, c]| {
             let center = circumcenter([a, b, c]);
-            center[0].hypot(center[1]) / self.scale
+            libm::hypot(center[0], center[1]) / self.scale
         })
     }
 

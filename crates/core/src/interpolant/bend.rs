@@ -136,7 +136,7 @@ fn through(a: Point, b: Point, adjacent: [Option<u32>; 2]) -> Bend {
     let (aa, bb, chord) = (dot(a, a), dot(b, b), sub(b, a));
     // Inversion in the origin makes the circle a line along the tangent.
     let along = [0, 1].map(|k| b[k] / bb - a[k] / aa);
-    let length = along[0].hypot(along[1]);
+    let length = libm::hypot(along[0], along[1]);
     let tangent =
         if length > 0.0 { along.map(|x| x / length) } else { left(b.map(|x| x / bb.sqrt())) };
     let curvature = 2.0 * cross(b, a) / (aa * bb * dot(chord, chord)).sqrt();

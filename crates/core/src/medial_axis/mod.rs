@@ -382,7 +382,7 @@ impl Circle {
 /// The unit normal to the right of p → q.
 fn outward(delaunay: &Delaunay, (p, q): (u32, u32)) -> Point {
     let [x, y] = sub(delaunay.point(q), delaunay.point(p));
-    let length = x.hypot(y);
+    let length = libm::hypot(x, y);
     [y / length, -x / length]
 }
 
@@ -400,7 +400,7 @@ fn of_line(delaunay: &Delaunay, curve: &Adjacency) -> MedialAxis {
         let step = sub(ends[1], ends[0]);
         let number = axis.vertices.len() as u32;
         axis.vertices.push([0, 1].map(|k| (ends[0][k] + step[k] / 2.0) / delaunay.scale()));
-        axis.radii.push(step[0].hypot(step[1]) / 2.0 / delaunay.scale());
+        axis.radii.push(libm::hypot(step[0], step[1]) / 2.0 / delaunay.scale());
         axis.ray_origins.extend([number; 2]);
         axis.ray_directions.extend([outward(delaunay, (p, q)), outward(delaunay, (q, p))]);
         axis.ray_samples.extend([samples; 2]);

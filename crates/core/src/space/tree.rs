@@ -81,7 +81,7 @@ impl Tree {
             .get(segment as usize)
         {
             Some(line) if distance.is_infinite() => {
-                (p[0] - line.start[0]).hypot(p[1] - line.start[1])
+                libm::hypot(p[0] - line.start[0], p[1] - line.start[1])
             }
             _ => distance,
         };
