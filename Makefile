@@ -119,7 +119,7 @@ page: editor ## Build the static page into dist/page: any static host serves it,
 test-editor: editor ## Test the editor: its model, the module against the library, and the page in a headless Chromium.
 	cargo clippy --release --quiet --package crustline-wasm -- -D warnings
 	cd editor && npm test --silent
-	$(BIN)/pip install --quiet --disable-pip-version-check playwright marimo
+	@$(BIN)/python -c 'import playwright, marimo' 2>/dev/null || $(PIP) -r requirements/tools.in
 	$(BIN)/pytest editor/tests
 
 figures: build ## Redraw the paper's figures into docs/gallery/.
