@@ -214,3 +214,26 @@ with crowd:
 def test_eight_at_once_answer_as_one_does(kind: str) -> None:
     done = run(CROWD, kind)
     assert done.returncode == 0, done.stderr
+
+
+THREADS = """
+import os
+import numpy as np
+import crustline as cl
+points = np.random.default_rng(1).random((20_000, 2))
+before = len(os.listdir("/proc/self/task"))
+delaunay = cl.Delaunay(points, threads=1)
+for name in ("triangles", "halfedges", "hull", "circumcenters", "circumradii", "edges"):
+    getattr(delaunay, name)
+edges = cl.crust(delaunay)
+cl.trace(delaunay, edges)
+cl.medial_axis(delaunay, edges)
+cl.certify(delaunay, edges)
+cl.local_feature_size(delaunay, edges)
+assert len(os.listdir("/proc/self/task")) == before + 1
+"""
+
+
+@pytest.mark.skipif(not os.path.isdir("/proc/self/task"), reason="the system lists no threads")
+def test_one_thread_is_one_thread_for_all_that_a_triangulation_is_asked_for() -> None:
+    subprocess.run([sys.executable, "-c", THREADS], check=True, timeout=DEADLOCK)

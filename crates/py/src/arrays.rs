@@ -52,14 +52,15 @@ fn room<T>(py: Python<'_>, count: usize) -> PyResult<()> {
     check(count, size_of::<T>()).map_err(|error| exception(py, &error))
 }
 
-/// A fresh read-only array of integers, `width` to a row.
+/// A fresh read-only array of integers, `N` to a row, filled on so many threads.
 pub fn integer_rows<'py, const N: usize>(
     py: Python<'py>,
+    threads: Option<usize>,
     rows: &[[u32; N]],
 ) -> PyResult<Bound<'py, PyArray2<i64>>> {
     room::<i64>(py, N * rows.len())?;
     let array = PyArray2::zeros(py, [rows.len(), N], false);
-    fill(&array, rows.as_flattened(), |&x| i64::from(x))
+    fill(&array, threads, rows.as_flattened(), |&x| i64::from(x))
 }
 
 /// A fresh read-only array of integers.
@@ -89,19 +90,23 @@ pub fn values<T: Element>(py: Python<'_>, values: Vec<T>) -> Bound<'_, PyArray1<
 
 fn fill<'py, S: Sync, T: Element + Copy>(
     array: &Bound<'py, PyArray2<T>>,
+    threads: Option<usize>,
     source: &[S],
     convert: impl Fn(&S) -> T + Sync + Send,
 ) -> PyResult<Bound<'py, PyArray2<T>>> {
     let mut writable = array.readwrite();
     let targets = writable.as_slice_mut()?;
-    aside(array.py(), || {
-        let parts = source.par_chunks(GRAIN);
-        targets.par_chunks_mut(GRAIN).zip(parts).for_each(|(targets, values)| {
-            for (target, value) in targets.iter_mut().zip(values) {
-                *target = convert(value);
-            }
-        });
-    })?;
+    let write = |(targets, values): (&mut [T], &[S])| {
+        for (target, value) in targets.iter_mut().zip(values) {
+            *target = convert(value);
+        }
+    };
+    if source.len() <= GRAIN {
+        write((targets, source));
+    } else {
+        let parts = targets.par_chunks_mut(GRAIN).zip(source.par_chunks(GRAIN));
+        aside(array.py(), threads, || parts.for_each(write))?;
+    }
     writable.make_nonwriteable();
     Ok(array.clone())
 }

@@ -52,5 +52,5 @@ pub fn connect<'py>(
     let call = Call { size: triangulation.input_len(), threads, callback: progress };
     let edges =
         call.run(py, |progress| core::connect(triangulation, &CONSTANTS, &hints, progress))?;
-    integer_rows(py, &edges)
+    integer_rows(py, threads, &edges)
 }

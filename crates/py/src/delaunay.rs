@@ -11,12 +11,18 @@ use pyo3::prelude::*;
 #[pyclass(frozen, module = "crustline._core")]
 pub struct Delaunay {
     inner: core::Delaunay,
+    threads: Option<usize>,
 }
 
 impl Delaunay {
     /// The triangulation of the core.
     pub fn core(&self) -> &core::Delaunay {
         &self.inner
+    }
+
+    /// How many threads to use for what is read from it.
+    pub fn threads(&self) -> Option<usize> {
+        self.threads
     }
 }
 
@@ -33,17 +39,17 @@ impl Delaunay {
         let rows = self::points(py, &points)?;
         let call = Call { size: rows.len(), threads, callback: progress };
         let inner = call.run(py, |progress| core::Delaunay::new(rows, progress))?;
-        Ok(Self { inner })
+        Ok(Self { inner, threads })
     }
 
     /// The triangles (t, 3), counter-clockwise, as rows.
     fn triangles<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<i64>>> {
-        integer_rows(py, &aside(py, || self.inner.row_triangles())?)
+        integer_rows(py, self.threads, &aside(py, self.threads, || self.inner.row_triangles())?)
     }
 
     /// The twin of each half-edge (3t,), −1 on the hull.
     fn halfedges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<i64>>> {
-        let twins = aside(py, || self.inner.twins())?;
+        let twins = aside(py, self.threads, || self.inner.twins())?;
         Ok(integers(py, twins.into_iter().map(|twin| twin.map_or(-1, i64::from))))
     }
 
@@ -55,21 +61,21 @@ impl Delaunay {
 
     /// The circumcenters (t, 2).
     fn circumcenters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        coordinates(py, aside(py, || self.inner.circumcenters())?)
+        coordinates(py, aside(py, self.threads, || self.inner.circumcenters())?)
     }
 
     /// The circumradii (t,).
     fn circumradii<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        Ok(values(py, aside(py, || self.inner.circumradii())?))
+        Ok(values(py, aside(py, self.threads, || self.inner.circumradii())?))
     }
 
     /// The edges (m, 2), i < j, sorted, as rows.
     fn edges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<i64>>> {
-        integer_rows(py, &aside(py, || core::edges::all(&self.inner))?)
+        integer_rows(py, self.threads, &aside(py, self.threads, || core::edges::all(&self.inner))?)
     }
 
     /// The duplicates (d, 2): row, and the first row with the same coordinates.
     fn duplicates<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<i64>>> {
-        integer_rows(py, self.inner.duplicates())
+        integer_rows(py, self.threads, self.inner.duplicates())
     }
 }

@@ -24,10 +24,15 @@ fn are_canonical(edges: &[[i64; 2]], points: i64) -> bool {
 }
 
 /// The edges as canonical ones of the core: i < j, sorted, unique, within the points.
-pub fn canonical(py: Python<'_>, edges: &[[i64; 2]], points: usize) -> PyResult<Edges> {
+pub fn canonical(
+    py: Python<'_>,
+    threads: Option<usize>,
+    edges: &[[i64; 2]],
+    points: usize,
+) -> PyResult<Edges> {
     if are_canonical(edges, points as i64) {
         let rows = |edge: &[i64; 2]| edge.map(|row| row as u32);
-        return aside(py, || edges.par_iter().map(rows).collect());
+        return aside(py, threads, || edges.par_iter().map(rows).collect());
     }
     let inside = |&row: &i64| row >= 0 && (row as usize) < points;
     if let Some(k) = edges.iter().position(|edge| edge[0] == edge[1] || !edge.iter().all(inside)) {

@@ -40,5 +40,5 @@ pub fn select_by_group<'py>(
             _ => methods::select(delaunay, method, &parameters, progress),
         })
     })?;
-    integer_rows(py, &edges)
+    integer_rows(py, threads, &edges)
 }

@@ -35,7 +35,7 @@ impl Interpolant {
     ) -> PyResult<Self> {
         let triangulation = delaunay.get().core();
         let size = triangulation.input_len();
-        let edges = canonical(py, rows(py, &edges)?, size)?;
+        let edges = canonical(py, threads, rows(py, &edges)?, size)?;
         let call = Call { size, threads, callback: progress };
         let inner = call.run(py, |progress| {
             core::interpolant::Interpolant::new(triangulation, &edges, progress)
@@ -72,8 +72,8 @@ impl Interpolant {
 
     /// The local feature size at each row.
     fn sizes<'py>(&self, py: Python<'py>) -> PyResult<Floats<'py>> {
-        let delaunay = self.delaunay.get().core();
-        Ok(values(py, aside(py, || self.inner.at_rows(delaunay))?))
+        let (delaunay, threads) = (self.delaunay.get().core(), self.delaunay.get().threads());
+        Ok(values(py, aside(py, threads, || self.inner.at_rows(delaunay))?))
     }
 
     /// The sampling ratio of each edge, and the turn and the degree of each row.

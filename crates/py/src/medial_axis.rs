@@ -20,7 +20,7 @@ pub fn medial_axis<'py>(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let core = delaunay.core();
-    let edges = canonical(py, rows(py, &edges)?, core.input_len())?;
+    let edges = canonical(py, threads, rows(py, &edges)?, core.input_len())?;
     let call = Call { size: core.input_len(), threads, callback: progress };
     let MedialAxis {
         vertices,
@@ -35,11 +35,11 @@ pub fn medial_axis<'py>(
     let fields = PyDict::new(py);
     fields.set_item("vertices", coordinates(py, vertices)?)?;
     fields.set_item("radii", values(py, radii))?;
-    fields.set_item("edges", integer_rows(py, &edges)?)?;
-    fields.set_item("samples", integer_rows(py, &samples)?)?;
+    fields.set_item("edges", integer_rows(py, threads, &edges)?)?;
+    fields.set_item("samples", integer_rows(py, threads, &samples)?)?;
     fields.set_item("inner", values(py, inner))?;
     fields.set_item("ray_origins", integers(py, ray_origins.into_iter().map(i64::from)))?;
     fields.set_item("ray_directions", coordinates(py, ray_directions)?)?;
-    fields.set_item("ray_samples", integer_rows(py, &ray_samples)?)?;
+    fields.set_item("ray_samples", integer_rows(py, threads, &ray_samples)?)?;
     Ok(fields)
 }

@@ -22,5 +22,5 @@ pub fn select<'py>(
     let core = delaunay.core();
     let call = Call { size: core.input_len(), threads, callback: progress };
     let edges = call.run(py, |progress| methods::select(core, method, &parameters, progress))?;
-    integer_rows(py, &edges)
+    integer_rows(py, threads, &edges)
 }

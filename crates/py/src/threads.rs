@@ -80,8 +80,12 @@ fn wanted() -> Option<usize> {
     std::env::var("RAYON_NUM_THREADS").ok()?.parse().ok().filter(|&threads| threads > 0)
 }
 
-/// Do `work`, which is short, off the interpreter's lock.
-pub fn aside<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
-    let threads = Threads::get(py, None)?;
+/// Do `work`, which is short, off the interpreter's lock, on so many threads.
+pub fn aside<T: Send>(
+    py: Python<'_>,
+    threads: Option<usize>,
+    work: impl FnOnce() -> T + Send,
+) -> PyResult<T> {
+    let threads = Threads::get(py, threads)?;
     Ok(py.detach(|| threads.run(work)))
 }

@@ -30,7 +30,7 @@ pub fn z_order<'py>(
     let call = Call { size: points.len(), threads: Some(1), callback: None };
     let order = call.run(py, |progress| tiles::order(points, progress))?;
     let rows = integers(py, order.rows.into_iter().map(i64::from));
-    Ok((rows, integer_rows(py, &order.duplicates)?))
+    Ok((rows, integer_rows(py, Some(1), &order.duplicates)?))
 }
 
 /// Decide edges for good: `(edges, open edges, open vertices, their reach, pieces asked for, parts of them)`.
@@ -63,7 +63,7 @@ pub fn decide<'py>(
     Table<'py, f64>,
 )> {
     let core = delaunay.core();
-    let pairs = canonical(py, rows(py, &pairs)?, core.input_len())?;
+    let pairs = canonical(py, threads, rows(py, &pairs)?, core.input_len())?;
     let (pieces, clear) = (rectangles(py, &pieces)?, rectangles(py, &clear)?);
     let known = known.as_slice()?;
     let (own, fresh) = (own.as_slice()?, fresh.as_slice()?);
@@ -79,8 +79,8 @@ pub fn decide<'py>(
     let (asked, parts): (Vec<u32>, Vec<Bounds>) = decision.requests.into_iter().unzip();
     let corners = |b: &Bounds| [b.low[0], b.low[1], b.high[0], b.high[1]];
     Ok((
-        integer_rows(py, &decision.edges)?,
-        integer_rows(py, &decision.open_edges)?,
+        integer_rows(py, threads, &decision.edges)?,
+        integer_rows(py, threads, &decision.open_edges)?,
         integers(py, decision.open_vertices.into_iter().map(i64::from)),
         values(py, decision.reach),
         integers(py, asked.into_iter().map(i64::from)),
@@ -102,7 +102,7 @@ pub fn candidates<'py>(
     let call = Call { size: core.input_len(), threads, callback: progress };
     let edges =
         call.run(py, |progress| tiles::with_rule(&rule.0, &rule.1, Candidates(core, progress)))?;
-    integer_rows(py, &edges)
+    integer_rows(py, threads, &edges)
 }
 
 /// The neighbors of rows in the triangulation, one after another, and where those of each start.
@@ -141,7 +141,7 @@ pub fn trace_tile<'py>(
     Chains<'py>,
 )> {
     let points = self::points(py, &points)?;
-    let edges = canonical(py, rows(py, &edges)?, points.len())?;
+    let edges = canonical(py, None, rows(py, &edges)?, points.len())?;
     let (cut, numbers) = (cut.as_slice()?, numbers.as_slice()?);
     if [cut.len(), numbers.len()] != [points.len(); 2] {
         return Err(input_error(py, "there must be one flag and one number a row".to_owned()));
@@ -193,7 +193,7 @@ pub fn join_chains<'py>(
     let chains = chains_of(sites.as_slice()?, rows(py, &places)?, edges.as_slice()?);
     let degrees: Vec<(i64, u32)> =
         rows(py, &degrees)?.iter().map(|&[row, degree]| (row, degree as u32)).collect();
-    let (whole, open) = aside(py, || tiles::join(&chains, &degrees))?;
+    let (whole, open) = aside(py, None, || tiles::join(&chains, &degrees))?;
     Ok([joined_arrays(py, &whole)?, joined_arrays(py, &open)?])
 }
 

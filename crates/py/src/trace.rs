@@ -21,7 +21,7 @@ pub fn trace<'py>(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(Indices<'py>, Indices<'py>, Bound<'py, PyArray1<bool>>, Indices<'py>)> {
     let points = self::points(py, &points)?;
-    let edges = canonical(py, rows(py, &edges)?, points.len())?;
+    let edges = canonical(py, threads, rows(py, &edges)?, points.len())?;
     let call = Call { size: points.len(), threads, callback: progress };
     let Curves { indices, offsets, closed, isolated } =
         call.run(py, |progress| crustline_core::trace::trace(points, edges, progress))?;
