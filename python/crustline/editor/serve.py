@@ -9,7 +9,7 @@ from types import FrameType
 
 from crustline.editor.page import built
 from crustline.editor.server import Site, application
-from crustline.errors import InputError, missing_extra
+from crustline.errors import InputError, require
 from crustline.points import Points
 
 
@@ -38,11 +38,7 @@ def serve(
     InputError
         If the port is taken.
     """
-    try:
-        import starlette  # noqa: F401
-        import uvicorn  # noqa: F401
-    except ImportError as error:
-        raise missing_extra("editor", str(error.name)) from None
+    require("editor", "starlette", "uvicorn")
     built("index.html")
     with socket.socket() as listener:
         listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from crustline.delaunay import Delaunay
 from crustline.editor.desk import edited, named
 from crustline.editor.page import built
-from crustline.errors import missing_extra
+from crustline.errors import require
 from crustline.methods import METHODS
 from crustline.points import as_carried
 from crustline.reconstruction import Reconstruction
@@ -61,11 +61,9 @@ def widget(
 
 @cache
 def _class() -> type:
-    try:
-        import anywidget
-        import traitlets
-    except ImportError as error:
-        raise missing_extra("notebook", str(error.name)) from None
+    require("notebook", "anywidget", "traitlets")
+    import anywidget
+    import traitlets
 
     class Editor(anywidget.AnyWidget):
         """Points to edit, and their curves."""
