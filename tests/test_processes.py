@@ -127,7 +127,7 @@ def test_threads_that_the_system_does_not_give_are_told_in_a_line() -> None:
     """`--threads 3000` where memory is limited was a traceback of a panic."""
     script = (
         "import resource\n"
-        f"{COUNT}"
+        f"{COUNT}cl.Delaunay, cl.InputError  # which loads them while there is room\n"
         "size = int(open('/proc/self/statm').read().split()[0]) * resource.getpagesize()\n"
         "resource.setrlimit(resource.RLIMIT_AS, (size + (1 << 21), -1))\n"
         "try:\n"
