@@ -17,7 +17,7 @@ import crustline as cl
 # A parameter with a default can be passed by position if it is what the call works on, or the
 # number that it is about. Options are keywords.
 POSITIONAL = {
-    "edges", "method", "ax", "box", "crs",
+    "edges", "method", "orient", "ax", "box", "crs",
     "beta", "angle", "ratio", "at_least", "count", "tolerance",
     "r", "m", "lobes", "depth", "radius",
 }  # fmt: skip

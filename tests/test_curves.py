@@ -324,3 +324,75 @@ def test_a_repeated_row_of_a_joined_point_is_not_isolated() -> None:
     square = [(0, 0), (1, 0), (1, 1), (0, 1), (1, 1), (9, 9), (9, 9)]
     curves = trace(square, [(0, 1), (1, 2), (2, 3), (0, 3)])
     assert curves.isolated.tolist() == [5]
+
+
+# Orientation
+
+
+def area_signs(curves):
+    return [np.sign(signed_area(curve.points)) for curve in curves if curve.closed]
+
+
+NESTED = rings(square(half=5), square(half=3), square(half=1), square((20, 0)))
+
+
+@pytest.mark.parametrize(
+    ("rule", "signs"),
+    [
+        ("ccw", [1, 1, 1, 1]),
+        ("cw", [-1, -1, -1, -1]),
+        ("rfc7946", [1, -1, 1, 1]),
+        ("gis", [-1, 1, -1, -1]),
+    ],
+)
+def test_rings_run_as_the_rule_says_whatever_they_did_before(rule, signs):
+    assert area_signs(NESTED.oriented(rule)) == signs
+    for before in ("ccw", "cw", "rfc7946", "gis"):
+        again = NESTED.oriented(before).oriented(rule)
+        assert again == NESTED.oriented(rule)
+        assert [curve.indices[0] for curve in again] == [0, 4, 8, 12]
+        np.testing.assert_array_equal(again.edges, NESTED.edges)
+
+
+@pytest.mark.parametrize(("rule", "signs"), [(None, [1, -1]), ("ccw", [1, 1]), ("gis", [-1, 1])])
+def test_polygons_run_as_their_rings_were_oriented(rule, signs):
+    feature = next(NESTED.oriented(rule).features(polygons=True))
+    assert [np.sign(signed_area(NESTED.points.xy[rows])) for rows in feature.parts] == signs
+
+
+def test_curves_start_where_they_are_asked_to():
+    ring, line = square(), [(5.0, 0.0), (6.0, 0.0), (7.0, 1.0)]
+    curves = trace(ring + line, [*cycle([0, 1, 2, 3]), (4, 5), (5, 6)])
+
+    def firsts(start):
+        return [int(curve.indices[0]) for curve in curves.oriented(start=start)]
+
+    assert firsts((9, 9)) == [2, 6]
+    assert firsts((6, 0)) == [1, 4]  # a polyline starts at an end
+    assert firsts("north") == [2, 6]  # of rows 2 and 3, the smaller
+    assert firsts("west") == [0, 4]
+    assert firsts("east") == [1, 6]
+    assert firsts(3) == [3, 4]
+    assert firsts(np.int64(6)) == [0, 6]
+    assert curves.oriented(start=6)[1].indices.tolist() == [6, 5, 4]
+    assert curves.oriented("cw", start=2)[0].indices.tolist() == [2, 1, 0, 3]
+    for start in (5, 7, -1):
+        with pytest.raises(InputError, match="at no end"):
+            firsts(start)
+    for start in ("up", (1, 2, 3), (math.nan, 0), None, object(), True):
+        if start is not None:
+            with pytest.raises(InputError, match="give x and y, a row"):
+                firsts(start)
+    with pytest.raises(InputError, match="orient must be"):
+        curves.oriented("left")
+    assert curves.oriented() == curves
+
+
+def test_no_curves_can_be_oriented():
+    none = trace([(0, 0)], [])
+    assert len(none.oriented("gis", start=(0, 0))) == 0
+
+
+def test_reconstruct_orients():
+    points = square()
+    assert reconstruct(points, orient="cw", start="north")[0].indices.tolist() == [2, 1, 0, 3]

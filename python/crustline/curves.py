@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from os import PathLike
 from typing import TYPE_CHECKING, Any, Literal, overload
@@ -14,6 +14,7 @@ import numpy.typing as npt
 from crustline import _core
 from crustline.arrays import BoolArray, FloatArray, IntArray, as_edges, read_only
 from crustline.delaunay import Delaunay, points_and_how
+from crustline.orientation import arranged, starts_of, turns_of
 from crustline.points import Points
 from crustline.records import Record
 from crustline.scalars import as_flag
@@ -86,7 +87,7 @@ class Feature(Record):
         Whether `parts` are the rings of a polygon, one ring or polyline, or isolated points.
     parts : tuple of ndarray of int64
         Rows of the points. A polygon's first part is its outside, counter-clockwise; the others are
-        its holes, clockwise.
+        its holes, clockwise; unless curves were `oriented` otherwise.
     closed : bool
         Whether the last row of each part is joined to its first.
     """
@@ -112,7 +113,8 @@ class Curves(Record, Sequence[Curve]):
     """Rings and polylines as ragged rows of points; a sequence of `Curve`.
 
     Rings start at their smallest index and run counter-clockwise, polylines start at their end of
-    smaller index, and curves are sorted by their first index. Every edge is in exactly one curve.
+    smaller index, and curves are sorted by their first index, until `oriented` says otherwise.
+    Every edge is in exactly one curve.
 
     Attributes
     ----------
@@ -126,6 +128,8 @@ class Curves(Record, Sequence[Curve]):
         Whether each curve is a ring.
     isolated : ndarray of int64, shape (s,)
         Rows of the points that no edge touches, sorted.
+    orient : {"ccw", "cw", "rfc7946", "gis"}, optional
+        The rule that rings were oriented by; None is as `trace` left them.
 
     Examples
     --------
@@ -141,6 +145,7 @@ class Curves(Record, Sequence[Curve]):
     offsets: IntArray
     closed: BoolArray
     isolated: IntArray
+    orient: str | None = None
 
     def __len__(self) -> int:
         return len(self.closed)
@@ -219,12 +224,63 @@ class Curves(Record, Sequence[Curve]):
         is, and a hole without a shell around it becomes a shell. Linear time, and that of the
         edges that a ray from each ring crosses.
         """
-        shells = _core.shells(self.points.xy, self.indices, self.offsets, self.closed).tolist()
+        shells = self._shells.tolist()
         holes: dict[int, list[IntArray]] = {k: [] for k, shell in enumerate(shells) if shell == k}
         for number, shell in enumerate(shells):
             if shell not in (-1, number):
                 holes[shell].append(self._curve(number).indices)
         return [Polygon(self._curve(k).indices, tuple(each)) for k, each in holes.items()]
+
+    @cached_property
+    def _shells(self) -> IntArray:
+        """For each ring its shell, itself if it is one; -1 for a polyline."""
+        shells: IntArray = _core.shells(self.points.xy, self.indices, self.offsets, self.closed)
+        return shells
+
+    def oriented(self, orient: str | None = None, *, start: Any = None) -> Curves:
+        """Return the same curves in other directions, or from other points on.
+
+        Parameters
+        ----------
+        orient : {"ccw", "cw", "rfc7946", "gis"}, optional
+            "ccw" and "cw": all rings counter-clockwise, or clockwise. "rfc7946": as GeoJSON and
+            Simple Features ask for, shells counter-clockwise and holes clockwise. "gis": as in
+            Shapefiles, the other way round. By default directions are left as they are.
+        start : pair of float, int, or {"west", "east", "south", "north"}, optional
+            Each ring starts at its point that is nearest to a place (x, y), or farthest in a
+            direction, and each polyline at such an end; or the ring of a row starts there, and a
+            polyline that ends there. Of equal points the smallest row is taken. By default starts
+            are left as they are.
+
+        Returns
+        -------
+        curves : Curves
+            In the same order. Every writer writes them as they run.
+
+        Raises
+        ------
+        InputError
+            If the rule or the start is none of these, or no ring or end has the row.
+
+        Notes
+        -----
+        Exact, as `trace` and `polygons` are. Linear time, and that of the nesting if the rule tells
+        holes from shells.
+
+        Examples
+        --------
+        >>> curves = trace([(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1), (1, 2), (2, 3), (0, 3)])
+        >>> curves.oriented("cw", start=(1, 1))[0].indices.tolist()
+        [2, 1, 0, 3]
+        """
+        rule = self.orient if orient is None else orient
+        turned = turns_of(rule, self._shells) != turns_of(self.orient, self._shells)
+        starts = np.zeros(len(self), dtype=np.int64)
+        if start is not None:
+            starts = starts_of(start, self.points.xy, self.indices, self.offsets, self.closed)
+        backwards = np.where(self.closed, turned, starts > 0)
+        indices = arranged(self.indices, self.offsets, starts, backwards)
+        return replace(self, indices=indices, orient=rule)
 
     def features(self, *, polygons: bool = False) -> Iterator[Feature]:
         """Yield polygons, if they are asked for, then the other curves, then the isolated points.
@@ -247,7 +303,7 @@ class Curves(Record, Sequence[Curve]):
         """
         number, polygons = 0, as_flag("polygons", polygons)
         for polygon in self.polygons() if polygons else []:
-            holes = (hole[::-1] for hole in polygon.holes)
+            holes = polygon.holes if self.orient else (hole[::-1] for hole in polygon.holes)
             yield Feature(number, "polygon", (polygon.shell, *holes), True)
             number += 1
         for curve in self:

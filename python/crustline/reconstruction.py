@@ -234,6 +234,8 @@ def reconstruct(
     fit: bool = False,
     noise: npt.ArrayLike | None = None,
     crs: str | None = None,
+    orient: str | None = None,
+    start: Any = None,
     **parameters: Any,
 ) -> Curves:
     """Return the curves that the points were sampled from, by a method.
@@ -251,6 +253,10 @@ def reconstruct(
         estimated.
     crs : str, optional
         With `fit`, the CRS to fit in, or "auto".
+    orient : {"ccw", "cw", "rfc7946", "gis"}, optional
+        The direction of the rings: see `Curves.oriented`. By default counter-clockwise.
+    start : pair of float, int, or {"west", "east", "south", "north"}, optional
+        Where rings, and of their two ends polylines, start: see `Curves.oriented`.
     **parameters
         Passed on to the method, such as ``beta=1.5`` for `beta_skeleton`.
 
@@ -287,4 +293,6 @@ def reconstruct(
     >>> len(fitted), bool(fitted[0].closed), list(fitted.points.columns)
     (1, True, ['input_rows', 'uncertainty', 'noise'])
     """
-    return Reconstruction(points, method, fit=fit, noise=noise, crs=crs, **parameters).curves
+    made = Reconstruction(points, method, fit=fit, noise=noise, crs=crs, **parameters)
+    oriented = orient is not None or start is not None
+    return made.curves.oriented(orient, start=start) if oriented else made.curves

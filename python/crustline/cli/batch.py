@@ -15,6 +15,7 @@ from typing import Any
 import click
 
 from crustline.cli.method import Command, Method, fit_options, method_options
+from crustline.cli.orientation import Orientation, orientation_options
 from crustline.cli.output import counted, write_with
 from crustline.cli.progress import progress_bar
 from crustline.cli.source import Source, format_options, reading_options
@@ -31,6 +32,7 @@ class _Job:
     output: str
     method: Method
     settings: dict[str, Any]
+    orientation: Orientation
 
 
 @dataclass(frozen=True)
@@ -64,6 +66,7 @@ def _pace_options(command: Command) -> Command:
 @_pace_options
 @reading_options
 @format_options("write_curves")
+@orientation_options
 @method_options
 @fit_options
 def batch(
@@ -72,6 +75,7 @@ def batch(
     pace: _Pace,
     source: Source,
     given: dict[str, Any],
+    orientation: Orientation,
     method: Method,
 ) -> None:
     """Find the curves of many files.
@@ -83,7 +87,10 @@ def batch(
         crustline batch goose.csv -o {stem}.geojson
     """
     started = time.perf_counter()
-    listed = _jobs(list(_files(names)), pattern, source, given, method)
+    files = list(_files(names))
+    settings = _checked(given, pattern)
+    kept = _Job(source, "", method, settings, orientation)
+    listed = _jobs(files, pattern, kept)
     done, failed = 0, []
     with progress_bar(pace.quiet) as progress:
         for job, fault in _run(listed, pace.jobs or os.cpu_count() or 1):
@@ -108,9 +115,8 @@ def _files(names: tuple[str, ...]) -> Iterator[str]:
         yield from found
 
 
-def _jobs(
-    files: list[str], pattern: str, source: Source, given: dict[str, Any], method: Method
-) -> list[_Job]:
+def _jobs(files: list[str], pattern: str, kept: _Job) -> list[_Job]:
+    """Return a job a file: what is kept of all of them, with their names."""
     if "{stem}" not in pattern and len(files) > 1:
         raise InputError(f"-o {pattern!r} is one file: write {{stem}} into it, once for each input")
     outputs = [
@@ -121,9 +127,8 @@ def _jobs(
         check_writable(output)
         if places.count(place) > 1:
             raise InputError(f"{output!r} would be written twice, or is an input: change -o")
-    settings = _checked(given, outputs[0])
     return [
-        _Job(replace(source, name=file), output, method, settings)
+        replace(kept, source=replace(kept.source, name=file), output=output)
         for file, output in zip(files, outputs, strict=True)
     ]
 
@@ -159,7 +164,7 @@ def _work(job: _Job) -> str | None:
     try:
         delaunay = Delaunay(job.source.read(), threads=job.source.threads or 1)
         made = job.method.reconstruction(delaunay)
-        write_with(made.curves, job.output, None, "write_curves", job.settings)
+        write_with(job.orientation.of(made.curves), job.output, None, "write_curves", job.settings)
     except (CrustlineError, MemoryError) as error:
         return " ".join(str(error).split()) or "there is not enough memory"
     return None

@@ -12,6 +12,7 @@ import numpy as np
 
 from crustline.cli.distributed import distributed_options
 from crustline.cli.method import Method, fit_options, method_options
+from crustline.cli.orientation import Orientation, orientation_options
 from crustline.cli.output import Output, counted, output_options
 from crustline.cli.progress import progress_bar
 from crustline.cli.source import Source, source_options
@@ -29,10 +30,13 @@ if TYPE_CHECKING:
 @distributed_options
 @source_options
 @output_options("write_curves")
+@orientation_options
 @click.option("--by", metavar="COLUMN", help="Connect only points of equal value in a column.")
 @method_options
 @fit_options
-def reconstruct(source: Source, output: Output, by: str | None, method: Method) -> None:
+def reconstruct(
+    source: Source, output: Output, orientation: Orientation, by: str | None, method: Method
+) -> None:
     """Find the curves that points were sampled from.
 
     INPUT is a file of points; - is standard input. Writes rings and lines, each in order, with the
@@ -44,7 +48,7 @@ def reconstruct(source: Source, output: Output, by: str | None, method: Method) 
     """
     with reconstruction(source, method, output.quiet, by) as made:
         counts = _count(made)
-    output.write(made.curves)
+    output.write(orientation.of(made.curves))
     output.report(
         f"{source.name}: {_in_words(counts)}",
         {"input": source.name, "method": method.name, **counts},
