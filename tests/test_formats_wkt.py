@@ -139,7 +139,7 @@ def test_polygons_have_their_holes_the_other_way_round(tmp_path):
     write(lake(), tmp_path / "curves.wkt", polygons=True)
     assert (tmp_path / "curves.wkt").read_text().splitlines()[0] == (
         "SRID=25832;POLYGON ((0.0 0.0, 9.0 0.0, 0.0 9.0, 0.0 0.0), "
-        "(2.0 3.0, 3.0 2.0, 2.0 2.0, 2.0 3.0))"
+        "(2.0 2.0, 2.0 3.0, 3.0 2.0, 2.0 2.0))"
     )
 
 

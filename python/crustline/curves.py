@@ -303,7 +303,9 @@ class Curves(Record, Sequence[Curve]):
         """
         number, polygons = 0, as_flag("polygons", polygons)
         for polygon in self.polygons() if polygons else []:
-            holes = polygon.holes if self.orient else (hole[::-1] for hole in polygon.holes)
+            holes = polygon.holes
+            if self.orient is None:
+                holes = tuple(np.append(hole[:1], hole[:0:-1]) for hole in holes)
             yield Feature(number, "polygon", (polygon.shell, *holes), True)
             number += 1
         for curve in self:

@@ -15,7 +15,7 @@ from crustline.arrays import FloatArray, IntArray
 from crustline.curves import Curves, trace
 from crustline.formats.format import Format, Layer
 from crustline.formats.geometries import joined
-from crustline.formats.options import LAYER, TOLERANCE, choice
+from crustline.formats.options import LAYER, TOLERANCE, UNIT
 from crustline.formats.source import Source
 from crustline.formats.target import Target
 from crustline.formats.vertices import edges_along
@@ -28,7 +28,6 @@ _MOST_ENTITIES = 1_000_000
 _FLATNESS = 1 / 1000
 _UNITS = {"mm": 4, "cm": 5, "m": 6, "km": 7, "in": 1, "ft": 2, "": 0}
 _LAYERS = {"RINGS": 5, "HOLES": 1, "OPEN": 3, "POINTS": 7}
-_UNIT = choice("unit", "The unit of the coordinates, for the header.", *filter(None, _UNITS))
 
 
 def read(source: Source, *, layer: str | None = None) -> Points:
@@ -277,7 +276,7 @@ DXF = Format(
     write_points=write_points,
     write_curves=write_curves,
     write_splines=write_splines,
-    options=(LAYER, TOLERANCE, _UNIT),
+    options=(LAYER, TOLERANCE, UNIT),
     extra="cad",
     needs=("ezdxf",),
 )

@@ -14,6 +14,7 @@ __all__ = [
     "LAYER",
     "POLYGONS",
     "TOLERANCE",
+    "UNIT",
     "WHERE",
     "choice",
     "flag",
@@ -107,6 +108,9 @@ WHERE = text("where", "Read only the rows that fit, in SQL, such as \"kind = 'co
 POLYGONS = flag("polygons", "Write rings as polygons with holes.")
 TOLERANCE = length(
     "tolerance", "How far splines may be from what is written, in the unit of the points.", "T"
+)
+UNIT = choice(
+    "unit", "The unit of the coordinates, for drawings.", "mm", "cm", "m", "km", "in", "ft"
 )
 
 

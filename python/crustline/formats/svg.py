@@ -11,7 +11,7 @@ from crustline.arrays import FloatArray
 from crustline.curves import Curves, Feature
 from crustline.formats.attributes import without_curves
 from crustline.formats.format import Format
-from crustline.formats.options import POLYGONS, TOLERANCE
+from crustline.formats.options import POLYGONS, TOLERANCE, UNIT
 from crustline.formats.target import Target
 from crustline.path import Path
 from crustline.points import Points
@@ -31,31 +31,42 @@ _STYLES = {
 # Widths in pixels. They are written in the drawing's own unit: strokes that do not scale
 # (vector-effect) are unknown to some viewers, which would draw blots or nothing.
 _LINE, _DOT = 1.5, 5.0
+# For each unit one that SVG knows, and how many of it are in it.
+_UNITS = {
+    "mm": ("mm", 1.0), "cm": ("cm", 1.0), "m": ("cm", 100.0), "km": ("cm", 1e5),
+    "in": ("in", 1.0), "ft": ("in", 12.0),
+}  # fmt: skip
 
 
-def write_curves(curves: Curves, target: Target, *, polygons: bool = False) -> None:
+def write_curves(curves: Curves, target: Target, *, polygons: bool = False, unit: str = "") -> None:
     """Write a picture of curves; the same curves give the same text."""
-    target.write(picture_of_curves(curves, polygons=polygons))
+    target.write(picture_of_curves(curves, polygons=polygons, unit=unit))
 
 
-def write_points(points: Points, target: Target) -> None:
+def write_points(points: Points, target: Target, *, unit: str = "") -> None:
     """Write a picture of points, as dots."""
-    target.write(picture_of_curves(without_curves(points)))
+    target.write(picture_of_curves(without_curves(points), unit=unit))
 
 
-def write_splines(splines: Splines, target: Target, *, tolerance: float | None = None) -> None:
+def write_splines(
+    splines: Splines, target: Target, *, tolerance: float | None = None, unit: str = ""
+) -> None:
     """Write a picture of splines as cubic Bézier paths, closed by Z if they are rings."""
-    target.write(picture_of_splines(splines, tolerance))
+    target.write(picture_of_splines(splines, tolerance, unit))
 
 
-def picture_of_curves(curves: Curves, *, polygons: bool = False) -> str:
-    """Return a picture of curves: a path for each, dots for the isolated points."""
+def picture_of_curves(curves: Curves, *, polygons: bool = False, unit: str = "") -> str:
+    """Return a picture of curves: a path for each, dots for the isolated points.
+
+    With a unit of the coordinates its size is that of the curves, for what cuts or prints it.
+    """
     features = list(curves.features(polygons=polygons))
     paths = [Path.of_feature(feature, curves.points.xy) for feature in features]
-    return _document(_frame_of(curves.points.xy), curves, zip(features, paths, strict=True))
+    drawn = zip(features, paths, strict=True)
+    return _document(_frame_of(curves.points.xy), curves, drawn, unit)
 
 
-def picture_of_splines(splines: Splines, tolerance: float | None = None) -> str:
+def picture_of_splines(splines: Splines, tolerance: float | None = None, unit: str = "") -> str:
     """Return a picture of splines: that of their curves, with cubics in place of lines."""
     curves = splines.curves
     features = list(curves.features())
@@ -65,7 +76,7 @@ def picture_of_splines(splines: Splines, tolerance: float | None = None) -> str:
     drawn += [(each, Path.of_feature(each, curves.points.xy)) for each in lonely]
     # Control points enclose their curve.
     frame = _frame_of(Path.joined(path for _, path in drawn).vertices)
-    return _document(frame, curves, drawn)
+    return _document(frame, curves, drawn, unit)
 
 
 @dataclass(frozen=True)
@@ -103,7 +114,9 @@ def _power(size: float) -> int:
     return int(np.clip(10 - np.frexp(size)[1], -1022, 1023))
 
 
-def _document(frame: _Frame, curves: Curves, drawn: Iterable[tuple[Feature, Path]]) -> str:
+def _document(
+    frame: _Frame, curves: Curves, drawn: Iterable[tuple[Feature, Path]], unit: str
+) -> str:
     """Return the whole drawing: features, placed in the frame, under a title that counts."""
     margin = _MARGIN * float((frame.high - frame.low).max()) or 1.0
     x, y = frame.low - margin
@@ -114,8 +127,8 @@ def _document(frame: _Frame, curves: Curves, drawn: Iterable[tuple[Feature, Path
     note = f' data-origin="{frame.origin[0]!s} {frame.origin[1]!s}" data-scale="{frame.scale!r}"'
     plain = not frame.origin.any() and frame.scale == 1
     lines = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" width="{_WIDTH}"'
-        f' height="{pixels}"{"" if plain else note}>',
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}"'
+        f" {_size(width / frame.scale, height / frame.scale, pixels, unit)}{'' if plain else note}>",
         f"<title>{_title(curves)}</title>",
         f'<g transform="scale(1 -1)" {_STYLE} stroke-width="{_LINE * pixel:.4g}">',
         *_elements(frame, drawn, f' stroke-width="{_DOT * pixel:.4g}"'),
@@ -124,6 +137,14 @@ def _document(frame: _Frame, curves: Curves, drawn: Iterable[tuple[Feature, Path
         "",
     ]
     return "\n".join(lines)
+
+
+def _size(width: float, height: float, pixels: int, unit: str) -> str:
+    """Return the size of the drawing, in its unit or, without one, so that it fits on a page."""
+    if not unit:
+        return f'width="{_WIDTH}" height="{pixels}"'
+    name, count = _UNITS[unit]
+    return f'width="{width * count:.9g}{name}" height="{height * count:.9g}{name}"'
 
 
 def _title(curves: Curves) -> str:
@@ -146,5 +167,5 @@ SVG = Format(
     write_points=write_points,
     write_curves=write_curves,
     write_splines=write_splines,
-    options=(POLYGONS, TOLERANCE),
+    options=(POLYGONS, TOLERANCE, UNIT),
 )

@@ -75,6 +75,8 @@ class _Driver:
         Whether it knows longitude and latitude on WGS 84 only.
     narrow : bool
         Whether its whole numbers have 32 bits.
+    clockwise : bool
+        Whether the outsides of its polygons run clockwise, however they are given.
     """
 
     name: str
@@ -90,6 +92,7 @@ class _Driver:
     longest: int = 0
     lonlat: bool = False
     narrow: bool = False
+    clockwise: bool = False
 
     # Reading
 
@@ -182,6 +185,13 @@ class _Driver:
 
     def write_curves(self, curves: Curves, target: Target, *, polygons: bool = False) -> None:
         """Write a row a curve, and the isolated points."""
+        if self.clockwise and polygons and curves.orient not in (None, "gis"):
+            warnings.warn(
+                f"{target.name}: polygons of this format run clockwise around the outside, not as "
+                f"orient={curves.orient!r} says: write lines, or a GeoPackage",
+                FormatWarning,
+                stacklevel=2,
+            )
         ready = replace(curves, points=self._ready(curves.points))
         self._write(list(_parts(ready, polygons, _stem(target))), ready.points.crs, target)
 
@@ -214,14 +224,15 @@ class _Driver:
         parts = [part for part in parts if part.table.num_rows] or parts[:1]
         with target.path(self.suffix) as path, _named(target):
             for number, part in enumerate(parts):
+                more = number > 0 and self.several == "layers"
                 options: dict[str, Any] = {
                     "layer": self.roles.get(part.kind.removesuffix(" Z"), part.name),
                     "driver": self.name,
                     "geometry_type": part.kind,
                     "crs": crs,
                     "encoding": "UTF-8" if self.longest else None,
-                    "append": number > 0 and self.several == "layers",
-                    "dataset_options": dict(self.settings) if number == 0 else None,
+                    "append": more,
+                    "dataset_options": None if more else dict(self.settings),
                     "layer_options": dict(self.layer_settings),
                 }
                 table = self._fitted(part.table, target)
@@ -389,7 +400,7 @@ GPKG = _format(
 )  # fmt: skip
 SHP = _format(
     "shp", "Shapefile", b"\x00\x00\x27\x0a",
-    _Driver("ESRI Shapefile", ".shp", "files", {}, {}, {}, longest=254),
+    _Driver("ESRI Shapefile", ".shp", "files", {}, {}, {}, longest=254, clockwise=True),
 )  # fmt: skip
 FGB = _format(
     "fgb", "FlatGeobuf", b"fgb\x03fgb",
