@@ -22,7 +22,7 @@ import pyogrio
 import pytest
 import resvg_py
 import shapely
-import svgelements
+import svgelements  # type: ignore[import-untyped]
 from ezdxf import path as dxf_path
 from PIL import Image
 
