@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         alpha_shape,
         beta_skeleton,
         by_group,
+        close_gaps,
         compatible_crust,
         conservative_crust,
         crawl,
@@ -70,7 +71,7 @@ _NAMES = {
     "medial_axis": "MedialAxis medial_axis",
     "merge": "Merged merge",
     "methods": (
-        "METHODS a_shape alpha_shape beta_skeleton by_group compatible_crust "
+        "METHODS a_shape alpha_shape beta_skeleton by_group close_gaps compatible_crust "
         "conservative_crust crawl crossing_angle_graph crust gabriel gamma_graph gathan "
         "hnn_crust minimum_spanning_tree nn_crust one_step_crust peel rcgh "
         "relative_neighborhood sig_delaunay"
@@ -142,6 +143,7 @@ __all__ = [
     "beta_skeleton",
     "by_group",
     "certify",
+    "close_gaps",
     "compatible_crust",
     "connect",
     "conservative_crust",

@@ -32,10 +32,17 @@ if TYPE_CHECKING:
 @output_options("write_curves")
 @orientation_options
 @click.option("--by", metavar="COLUMN", help="Connect only points of equal value in a column.")
+@click.option("--edges-from-file", is_flag=True,
+              help="Keep the lines that the file holds, and decide their gaps only.")  # fmt: skip
 @method_options
 @fit_options
 def reconstruct(
-    source: Source, output: Output, orientation: Orientation, by: str | None, method: Method
+    source: Source,
+    output: Output,
+    orientation: Orientation,
+    by: str | None,
+    edges_from_file: bool,
+    method: Method,
 ) -> None:
     """Find the curves that points were sampled from.
 
@@ -46,7 +53,11 @@ def reconstruct(
         crustline reconstruct goose.csv -o goose.geojson -o goose.svg
         crustline reconstruct tracks.csv --fit --noise accuracy -o path.geojson
     """
-    with reconstruction(source, method, output.quiet, by) as made:
+    with (
+        completion(source, method, by, output.quiet)
+        if edges_from_file
+        else reconstruction(source, method, output.quiet, by)
+    ) as made:
         counts = _count(made)
     output.write(orientation.of(made.curves))
     output.report(
@@ -72,6 +83,27 @@ def reconstruction(
         else:
             _refuse_fit(method)
             yield Reconstruction(delaunay, _grouped(points, by, method))
+
+
+@contextmanager
+def completion(
+    source: Source, method: Method, by: str | None, quiet: bool
+) -> Iterator[Reconstruction]:
+    """Read the lines of a source, and yield them with their gaps closed, under a progress bar."""
+    from crustline.delaunay import Delaunay
+    from crustline.methods import close_gaps
+    from crustline.projection import projected
+    from crustline.reconstruction import Reconstruction
+
+    if by is not None or method.name != "connect" or method.fit:
+        other = "--by" if by else "--fit" if method.fit else f"--method {method.name}"
+        raise InputError(f"--edges-from-file goes with connect, not with {other}: leave one away")
+    curves = source.read_curves()
+    _warn_of_degrees(source, curves.points, method)
+    close = close_gaps if method.project is None else projected(close_gaps, method.project)
+    with progress_bar(quiet) as progress:
+        delaunay = Delaunay(curves.points, threads=source.threads, progress=progress)
+        yield Reconstruction(delaunay, close, edges=curves.edges, **method.parameters)
 
 
 def _warn_of_degrees(source: Source, points: Points, method: Method) -> None:

@@ -8,12 +8,14 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import click
+import numpy as np
 
 from crustline.cli.method import Command
 from crustline.formats.catalog import able, options_for
 from crustline.formats.format import Format, Option
 
 if TYPE_CHECKING:
+    from crustline.curves import Curves
     from crustline.formats.source import Source as Bytes
     from crustline.points import Points
 
@@ -40,6 +42,20 @@ class Source:
             for subject, finding in opened.notes.items():
                 click.echo(f"crustline: {opened.name}: {subject}: {finding}", err=True)
         return points
+
+    def read_curves(self) -> Curves:
+        """Return its lines and rings; of vertices on one spot the first, which all lead through."""
+        from crustline.curves import trace
+        from crustline.delaunay import Delaunay
+        from crustline.formats import read_curves
+
+        curves = read_curves(self.name, format=self.format, crs=self.crs, **self.settings)
+        first = np.arange(len(curves.points))
+        repeated = Delaunay(curves.points).duplicates
+        first[repeated[:, 0]] = repeated[:, 1]
+        kept = np.flatnonzero(first == np.arange(len(first)))
+        edges = np.searchsorted(kept, first[curves.edges])
+        return trace(curves.points.select(kept), edges)
 
 
 def source_options(command: Command) -> Command:

@@ -124,11 +124,11 @@ def _document(
     box = " ".join(f"{each:.9g}" for each in (x, -y - height, width, height))
     pixels = max(1, min(4 * _WIDTH, round(_WIDTH * height / width)))
     pixel = max(width / _WIDTH, height / pixels)
+    size = _size(width / frame.scale, height / frame.scale, pixels, unit)
     note = f' data-origin="{frame.origin[0]!s} {frame.origin[1]!s}" data-scale="{frame.scale!r}"'
     plain = not frame.origin.any() and frame.scale == 1
     lines = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}"'
-        f" {_size(width / frame.scale, height / frame.scale, pixels, unit)}{'' if plain else note}>",
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" {size}{"" if plain else note}>',
         f"<title>{_title(curves)}</title>",
         f'<g transform="scale(1 -1)" {_STYLE} stroke-width="{_LINE * pixel:.4g}">',
         *_elements(frame, drawn, f' stroke-width="{_DOT * pixel:.4g}"'),

@@ -11,6 +11,7 @@ from crustline.arrays import IntArray
 from crustline.methods.alpha_shapes import a_shape, alpha_shape
 from crustline.methods.connect import connect
 from crustline.methods.crusts import as_selected, crust, nn_crust, one_step_crust, rcgh
+from crustline.methods.gaps import close_gaps
 from crustline.methods.greedy import crawl, peel
 from crustline.methods.groups import by_group
 from crustline.methods.nearest import compatible_crust, hnn_crust, sig_delaunay
@@ -64,6 +65,7 @@ __all__ = [
     "beta_skeleton",
     "by_group",
     "check_parameters",
+    "close_gaps",
     "compatible_crust",
     "connect",
     "conservative_crust",
