@@ -124,7 +124,7 @@ def _document(
     box = " ".join(f"{each:.9g}" for each in (x, -y - height, width, height))
     pixels = max(1, min(4 * _WIDTH, round(_WIDTH * height / width)))
     pixel = max(width / _WIDTH, height / pixels)
-    size = _size(width / frame.scale, height / frame.scale, pixels, unit)
+    size = _size(width, height, unit, frame) if unit else f'width="{_WIDTH}" height="{pixels}"'
     note = f' data-origin="{frame.origin[0]!s} {frame.origin[1]!s}" data-scale="{frame.scale!r}"'
     plain = not frame.origin.any() and frame.scale == 1
     lines = [
@@ -139,12 +139,11 @@ def _document(
     return "\n".join(lines)
 
 
-def _size(width: float, height: float, pixels: int, unit: str) -> str:
-    """Return the size of the drawing, in its unit or, without one, so that it fits on a page."""
-    if not unit:
-        return f'width="{_WIDTH}" height="{pixels}"'
+def _size(width: float, height: float, unit: str, frame: _Frame) -> str:
+    """Return the size that a drawing has in the unit of its coordinates."""
     name, count = _UNITS[unit]
-    return f'width="{width * count:.9g}{name}" height="{height * count:.9g}{name}"'
+    across, up = (float(side) / frame.scale * count for side in (width, height))
+    return f'width="{across:.9g}{name}" height="{up:.9g}{name}"'
 
 
 def _title(curves: Curves) -> str:
