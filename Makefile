@@ -13,7 +13,7 @@ LOCK := requirements/ci.txt
 PINNED := 3.11 linux x86_64
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo test test-all test-rust test-python test-busy lint types audit lock format accuracy bench bench-quick bench-instructions fuzz fuzz-readers man figures experiment wheel clean editor page test-editor
+.PHONY: help build demo test test-all test-rust test-python test-busy lint types audit lock format accuracy bench bench-quick bench-instructions fuzz fuzz-readers man figures experiment simulate wheel clean editor page test-editor
 
 help: ## Show this list.
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-20s %s\n", $$1, $$2}'
@@ -124,6 +124,9 @@ test-editor: editor ## Test the editor: its model, the module against the librar
 
 figures: build ## Redraw the paper's figures into docs/gallery/.
 	$(BIN)/python -m figures
+
+simulate: build ## Plan distributed runs of 10^8 to 10^10 points from sampled tiles; to the terminal.
+	$(BIN)/python -m experiments.scale
 
 experiment: build ## Share of exact reconstructions against r; writes docs/experiments.md.
 	$(BIN)/python -m experiments.theory

@@ -32,7 +32,7 @@ from crustline.distributed.sight import without
 def client():
     """One worker in this process: what runs there is what runs on a cluster."""
     with Client(
-        processes=False, n_workers=1, threads_per_worker=1, dashboard_address=None
+        processes=False, n_workers=1, threads_per_worker=1, dashboard_address="127.0.0.1:0"
     ) as opened:
         yield opened
 
@@ -489,7 +489,9 @@ def test_the_number_of_workers_changes_nothing(tmp_path, workers):
     xy = arcs(2000, random)
     source = put(tmp_path / "in", xy)
     with (
-        LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster,
+        LocalCluster(
+            n_workers=workers, threads_per_worker=1, dashboard_address="127.0.0.1:0"
+        ) as cluster,
         Client(cluster) as opened,
     ):
         result = reconstruct(source, tmp_path / "out", client=opened, tile_points=100, halo=0)
@@ -531,7 +533,7 @@ def test_a_worker_is_killed_before_its_file_has_its_name(tmp_path, module, step)
     xy = arcs(1000, np.random.default_rng(21))
     source, sentinel = put(tmp_path / "in", xy), tmp_path / "killed"
     with (
-        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
+        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address="127.0.0.1:0") as cluster,
         Client(cluster) as opened,
     ):
         opened.run(die_once, module, step, sentinel)
@@ -553,7 +555,7 @@ def say(name, fraction):
         sys.stdin.read()
 
 if __name__ == "__main__":
-    with Client(processes=False, n_workers=1, dashboard_address=None) as client:
+    with Client(processes=False, n_workers=1, dashboard_address="127.0.0.1:0") as client:
         distributed.reconstruct(
             sys.argv[1], sys.argv[2], client=client, tile_points=60, halo=0, rounds=1, progress=say
         )
@@ -577,3 +579,24 @@ def test_the_client_is_killed_and_the_run_resumed(client, tmp_path, stage):
     result = reconstruct(source, tmp_path / "out", client=client, tile_points=60, halo=0, rounds=1)
     agrees(result, xy)
     assert not list((tmp_path / "out").rglob("*.part"))
+
+
+def test_memory_does_not_grow_with_the_points(tmp_path, monkeypatch):
+    """The points take five times what a worker has beyond its memory for a tenth of them."""
+    monkeypatch.undo()
+    random = np.random.default_rng(26)
+    few, many = 250_000, 2_500_000
+    xy = coast(many, random)[random.permutation(many)]
+    with (
+        LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address="127.0.0.1:0") as cluster,
+        Client(cluster) as opened,
+    ):
+        peaks = []
+        for count in (few, many):
+            source = put(tmp_path / f"in-{count}", xy[:count], files=4, group=25_000)
+            options = {"client": opened, "tile_points": 15_000}
+            result = reconstruct(source, tmp_path / f"out-{count}", **options)
+            assert result.counts["rows"] == count
+            peaks += result.report["peak_memory"].values()
+        assert len(peaks) == 2, "a worker was lost"
+    assert peaks[1] - peaks[0] < many * 24 / 5

@@ -12,9 +12,9 @@ from crustline.errors import InputError, require
 #: The share of the machine's memory, or its cgroup's, that a run may take by itself.
 _SHARE = 0.6
 #: What a process takes before it has any points.
-_BASE = 160_000_000
-#: What a point of a tile takes at most while its tile is decided.
-_POINT = 400
+_BASE = 170_000_000
+#: What a point of a tile takes at most: 480 bytes, and some tiles have half as many points more.
+_POINT = 800
 #: The least that a worker is given.
 _WORKER = 400_000_000
 
@@ -67,7 +67,7 @@ def _local(limit: int) -> Any:
             n_workers=workers,
             threads_per_worker=1,
             memory_limit=limit // workers,
-            dashboard_address=None,
+            dashboard_address="127.0.0.1:0",
         )
 
 

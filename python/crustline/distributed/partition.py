@@ -65,7 +65,9 @@ def _sample(count: int, step: int, random: np.random.Generator) -> IntArray:
 
 def plan(folder: Path, units: list[str], tile_points: int) -> Any:
     """Cut the plane by the samples of all units."""
-    samples = (record["sample"] for path in units for record in Records(folder / path, ["sample"]))
+    # Mapped and copied, or the coordinates beside the samples would be held in memory, too.
+    files = (Records(folder / path, ["sample"], mapped=True) for path in units)
+    samples = (record["sample"].copy() for records in files for record in records)
     sample = np.concatenate([np.empty((0, 2)), *samples])
     step = max(1, tile_points // SAMPLE)
     cuts = cut(sample, np.full(len(sample), float(step)), tile_points)
@@ -134,11 +136,11 @@ def _cut_again(
 def fragments(folder: Path, scattered: list[str], tile: int) -> Iterator[Arrays]:
     """Return the points of a tile, piece by piece, in the order of their rows."""
     for path in scattered:
-        # Mapped, as of each piece only a tile's part is read.
+        # Mapped, as of each piece only a tile's part is read, and copied, to let go of the rest.
         for record in Records(folder / path, mapped=True):
             ends = record["ends"]
             part = slice(ends[tile - 1] if tile else 0, ends[tile])
-            yield {name: record[name][part] for name in _POINTS}
+            yield {name: record[name][part].copy() for name in _POINTS}
 
 
 def batched(records: Iterable[Arrays], points: int) -> Iterator[list[Arrays]]:

@@ -37,6 +37,7 @@ def _summed(steps: list[Done]) -> dict[str, Any]:
         "wall": round(sum(each.cost["wall"] for each in steps), 3),
         "cpu": round(sum(each.cost["cpu"] for each in steps), 3),
         "files": round(sum(each.cost["files"] for each in steps), 3),
+        "peak": max(each.cost["peak"] for each in steps),
         "bytes": sum(file.size for each in steps for file in each.files),
     }
     for each in steps:

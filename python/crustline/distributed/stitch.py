@@ -57,7 +57,7 @@ def _graph(folder: Path, tile: int, files: Iterable[str]) -> _Graph:
     place = np.searchsorted(points["row"], across["rows"])
     is_own = across["tiles"] == tile
     inner = is_own.all(axis=1)
-    decided = Records(folder / f"work/decided/{tile:06}.arrow", ["own"])[0]["own"]
+    decided = Records(folder / f"work/decided/{tile:06}.arrow", ["own"], mapped=True)[0]["own"]
     own = np.concatenate([decided.astype(np.int64), place[inner]])
     cut = place[is_own & ~inner[:, None]]
     count = len(points["row"])
@@ -87,7 +87,7 @@ def _sorted(edges: IntArray, vertices: int) -> IntArray:
 
 def _edges_of(folder: Path, tile: int, files: Iterable[str]) -> Arrays:
     """Return the edges across tiles, and those found late, that end in a tile, each once."""
-    records = (Records(folder / path, list(NO_EDGES))[0] for path in files)
+    records = (Records(folder / path, list(NO_EDGES), mapped=True)[0] for path in files)
     ends_here = ({n: a[(r["tiles"] == tile).any(axis=1)] for n, a in r.items()} for r in records)
     edges = together(ends_here, NO_EDGES)
     _, firsts = np.unique(edges["rows"], axis=0, return_index=True)
@@ -187,7 +187,7 @@ def _chains(folder: Path, level: int, tile: int, path: str) -> Arrays:
     if level:
         record = Records(folder / path)[0]
         return record
-    record = Records(folder / path, list(_NO_CHAINS))[0]
+    record = Records(folder / path, list(_NO_CHAINS), mapped=True)[0]
     count = len(record["counts"])
     runs = {"tile": np.full(count, tile), "run": np.arange(count), "sizes": np.ones(count, int)}
     return record | runs | {"backward": np.zeros(count, bool)}

@@ -24,7 +24,7 @@ from crustline.distributed.store import Arrays, Records, together, write_records
 #: Pieces that one edge or vertex may ask for in a round.
 MOST = 8
 #: The share of a tile's points that a halo may add by a guess.
-_MOST_HALO = 0.2
+MOST_HALO = 0.2
 
 _NO_PAIRS = np.empty((0, 2), np.int64)
 _NOWHERE = np.array([[np.inf, np.inf, -np.inf, -np.inf]])
@@ -133,7 +133,7 @@ def _guess(store: Folder, tile: int, count: int) -> float:
     others[groups] = False
     bounds, counts = atlas.bounds[others], atlas.counts[others]
     while (
-        width > 0 and _points_within(bounds, counts, atlas.tiles[tile], width) > _MOST_HALO * count
+        width > 0 and _points_within(bounds, counts, atlas.tiles[tile], width) > MOST_HALO * count
     ):
         width = width / 2 if width > 1e-300 else 0.0
     return width
