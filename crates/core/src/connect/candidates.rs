@@ -1,11 +1,12 @@
 //! The edges that a curve may take: the Delaunay edges and all diagonals of cocircular groups, as half-edges by vertex.
 
+use super::approximation::half_turns;
 use super::constants::MOST_PAIRED;
 use crate::cocircular::diagonals;
 use crate::delaunay::{Delaunay, Edge};
 use crate::error::{Error, Result};
 use crate::parts::split;
-use crate::point::{Point, cross, dot, sub};
+use crate::point::sub;
 use crate::progress::Progress;
 use rayon::prelude::*;
 
@@ -305,14 +306,8 @@ fn sight(delaunay: &Delaunay, p: u32, q: u32, apexes: [Option<u32>; 2]) -> f32 {
     let angles = apexes.map(|apex| {
         apex.map_or(0.0, |apex| {
             let at = delaunay.point(apex);
-            angle(sub(p, at), sub(q, at))
+            half_turns(sub(p, at), sub(q, at))
         })
     });
-    ((angles[0] + angles[1]) / std::f64::consts::PI) as f32
-}
-
-/// The angle between two vectors, from 0 to π; the same after turns by 90° and reflections, to the last bit.
-#[must_use]
-pub fn angle(u: Point, v: Point) -> f64 {
-    libm::atan2(cross(u, v).abs(), dot(u, v))
+    (angles[0] + angles[1]) as f32
 }

@@ -96,7 +96,9 @@ pub const GAP_SURE: f32 = 10.0;
 /// Where the longest usual step is e to this power times the lower quartile, that is trusted half.
 pub const GAP_SPREAD: f32 = 1.5;
 /// The most sweeps of messages a round: a message goes as many edges far.
-pub const SWEEPS: usize = 20;
+pub const SWEEPS: usize = 8;
+/// How much of its change a message makes: less than all, so that none swings to and fro.
+pub const DAMPING: f32 = 0.6;
 /// Messages that change by no more than this have converged; an end costs 1.
 pub const CONVERGED: f32 = 1e-2;
 /// Components of fewer points than this are dropped where points are isolated: outliers pair up.

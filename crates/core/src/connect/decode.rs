@@ -1,6 +1,6 @@
 //! From beliefs to edges: the surest first, at most two a point.
 
-use super::candidates::Candidates;
+use super::candidates::{Candidates, by_vertex};
 use super::selection::Selection;
 use rayon::prelude::*;
 
@@ -9,15 +9,27 @@ use rayon::prelude::*;
 /// Equally sure edges that compete for a point are all left out, and the point takes no further ones: nothing in the
 /// points tells them apart, so no order of theirs may.
 #[must_use]
-pub fn decode(candidates: &Candidates, beliefs: &[f32], most: impl Fn(usize) -> u8) -> Selection {
-    let mut sorted: Vec<(f32, u32, u32)> = candidates
-        .edges()
-        .filter(|&(_, e)| beliefs[e] < 0.0)
-        .map(|(v, e)| (beliefs[e], v as u32, e as u32))
-        .collect();
-    sorted.par_sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)));
+pub fn decode(
+    candidates: &Candidates,
+    beliefs: &[f32],
+    most: impl Fn(usize) -> u8 + Sync,
+) -> Selection {
+    // Where no more are believed in than there is room for, all are in, whatever their order.
+    let has_room = by_vertex(candidates.vertices(), |v| {
+        let believed = candidates.from(v).filter(|&e| beliefs[e] < 0.0).count();
+        believed <= usize::from(most(v))
+    });
     let mut selection = Selection::empty(candidates);
-    let mut wanted = vec![0u8; candidates.vertices()];
+    let mut sorted: Vec<(f32, u32, u32)> = Vec::new();
+    for (v, e) in candidates.edges().filter(|&(_, e)| beliefs[e] < 0.0) {
+        if has_room[v] && has_room[candidates.ends[e] as usize] {
+            selection.set(candidates, e, true);
+        } else {
+            sorted.push((beliefs[e], v as u32, e as u32));
+        }
+    }
+    sorted.par_sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)));
+    let mut wanted = selection.degrees.clone();
     for equal in sorted.chunk_by(|a, b| a.0 == b.0) {
         take(candidates, equal, &most, &mut selection, &mut wanted);
     }

@@ -1,5 +1,6 @@
 //! Gaps: edges much longer than the steps of the curve around them, where these are much alike.
 
+use super::approximation::log;
 use super::candidates::{Candidates, by_vertex};
 use super::constants::{Constants, GAP_FEWEST, GAP_SPREAD, GAP_SURE, GAP_WINDOW};
 use super::geometry::Spacing;
@@ -35,7 +36,7 @@ impl Gaps {
             }
             let steps = steps_around(candidates, spacing, selection, v);
             usual_steps(steps, constants).map_or(Usual::none(), |(step, trust)| Usual {
-                step: libm::log(step / spacing.nearest[v]) as f32,
+                step: log(step / spacing.nearest[v]) as f32,
                 trust,
             })
         });
@@ -117,7 +118,7 @@ fn usual_steps(mut steps: Vec<f64>, constants: &Constants) -> Option<(f64, f32)>
     let from = &steps[(steps.len() - 1) / 2..];
     let jump = from.windows(2).find(|pair| pair[1] >= constants.gap_jump * pair[0]);
     let longest = jump.map_or(from[from.len() - 1], |pair| pair[0]);
-    let spread = libm::log(longest / steps[steps.len() / 4]) as f32 / GAP_SPREAD;
+    let spread = log(longest / steps[steps.len() / 4]) as f32 / GAP_SPREAD;
     let enough = (steps.len() as f32 / GAP_SURE).min(1.0);
     Some((longest, enough / (1.0 + spread * spread * spread * spread)))
 }

@@ -2,7 +2,8 @@
 //!
 //! Ratios of lengths only, so that the scale does not matter; differences of coordinates only, so that the place does not.
 
-use super::candidates::{Candidates, GRAIN, angle, by_vertex, each};
+use super::approximation::{half_turns, log};
+use super::candidates::{Candidates, GRAIN, by_vertex, each};
 use super::constants::{Constants, SPACING_RINGS};
 use super::rings::ring_median;
 use crate::delaunay::Delaunay;
@@ -33,7 +34,7 @@ impl<'a> Spacing<'a> {
         });
         let lengths = candidates.map(0.0, |v, own| {
             for (own, &end) in own.iter_mut().zip(candidates.neighbors(v)) {
-                *own = libm::log(distance(v, end) / nearest[v]) as f32;
+                *own = log(distance(v, end) / nearest[v]) as f32;
             }
         });
         let reach = libm::log(constants.reach) as f32;
@@ -43,7 +44,7 @@ impl<'a> Spacing<'a> {
             spacing = ring_median(candidates, &spacing, |v, e| lengths[e] <= limits[v]);
         }
         let crowding = by_vertex(vertices, |v| {
-            if nearest[v].is_finite() { libm::log(spacing[v] / nearest[v]) as f32 } else { 0.0 }
+            if nearest[v].is_finite() { log(spacing[v] / nearest[v]) as f32 } else { 0.0 }
         });
         Self { points: delaunay.points(), nearest, lengths, crowding }
     }
@@ -77,7 +78,7 @@ fn second_least(values: &[f32]) -> f32 {
     least[1]
 }
 
-/// For each pair i < j of paired half-edges at a vertex, vertex after vertex: how far one turns from the other.
+/// For each pair i < j of paired half-edges at a vertex, by j, then by i, vertex after vertex: how far one turns from the other.
 #[derive(Debug, Default)]
 pub struct Turns {
     /// The square roots of the turns in half turns; 0 is straight.
@@ -103,10 +104,11 @@ impl Turns {
             let mut next = part.iter_mut();
             for v in k * GRAIN..((k + 1) * GRAIN).min(vertices) {
                 let ends = &candidates.neighbors(v)[..candidates.pairs(v)];
-                for (i, &a) in ends.iter().enumerate() {
-                    let u = vector(delaunay, v, a);
-                    for (&b, root) in ends[i + 1..].iter().zip(&mut next) {
-                        *root = root_turn(u, vector(delaunay, v, b));
+                for (j, &b) in ends.iter().enumerate() {
+                    let w = vector(delaunay, v, b);
+                    // The ends first: an iterator zipped ahead of them would lose one of its own.
+                    for (&a, root) in ends[..j].iter().zip(&mut next) {
+                        *root = root_turn(vector(delaunay, v, a), w);
                     }
                 }
             }
@@ -114,7 +116,7 @@ impl Turns {
         Self { roots, starts }
     }
 
-    /// Those of all pairs at `v`, row after row.
+    /// Those of all pairs at `v`.
     #[inline]
     #[must_use]
     pub fn at(&self, v: usize) -> &[f32] {
@@ -124,14 +126,14 @@ impl Turns {
     /// That of the pair of half-edges number i and j at `v`.
     #[inline]
     #[must_use]
-    pub fn of(&self, candidates: &Candidates, v: usize, [i, j]: [usize; 2]) -> f32 {
-        let (i, j, count) = (i.min(j), i.max(j), candidates.pairs(v));
-        self.at(v)[i * (2 * count - i - 1) / 2 + j - i - 1]
+    pub fn of(&self, v: usize, [i, j]: [usize; 2]) -> f32 {
+        let (i, j) = (i.min(j), i.max(j));
+        self.at(v)[j * (j - 1) / 2 + i]
     }
 }
 
 /// The square root of the turn of a path that comes against `u` and leaves along `w`, in half turns.
 fn root_turn(u: Point, w: Point) -> f32 {
     let opposite = [-w[0], -w[1]];
-    (angle(u, opposite) / std::f64::consts::PI).sqrt() as f32
+    half_turns(u, opposite).sqrt() as f32
 }

@@ -1,15 +1,16 @@
 //! Min-sum message passing: every edge is a binary variable in the two factors of its ends.
 //!
 //! The message of a vertex to an edge is what the edge costs at that vertex beyond its absence, all else at its best
-//! (J. Pearl, "Probabilistic Reasoning in Intelligent Systems", 1988). All are sent at once and damped by half.
+//! (J. Pearl, "Probabilistic Reasoning in Intelligent Systems", 1988). All are sent at once, and damped.
 
 use super::candidates::{Candidates, GRAIN, each};
-use super::constants::{CONVERGED, SWEEPS};
+use super::constants::{CONVERGED, DAMPING, MOST_PAIRED, SWEEPS};
 use super::costs::Costs;
 use super::geometry::{Spacing, Turns};
 use crate::error::Result;
 use crate::parts::split;
 use crate::progress::Progress;
+use std::mem::swap;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// What the messages run on.
@@ -25,8 +26,14 @@ pub struct Factors<'a> {
     pub costs: &'a Costs,
 }
 
-/// The new messages of the active vertices of a part.
-type Mail = Vec<(u32, f32)>;
+/// One sweep: the messages sent before, and who sends now and next time.
+struct Sweep<'a> {
+    sent: &'a [f32],
+    active: &'a [AtomicBool],
+    later: &'a [AtomicBool],
+    /// How much of a message's change is made.
+    share: f32,
+}
 
 impl Factors<'_> {
     /// Send messages until none changes any more, starting from those in `sent`.
@@ -35,68 +42,75 @@ impl Factors<'_> {
     ///
     /// # Errors
     /// A cancelled `progress`.
-    pub fn converge(&self, sent: &mut [f32], progress: &Progress) -> Result<()> {
-        let active: Vec<AtomicBool> =
-            (0..self.candidates.vertices()).map(|_| AtomicBool::new(true)).collect();
-        let mut mail = vec![Mail::new(); self.candidates.vertices().div_ceil(GRAIN)];
-        for _ in 0..SWEEPS {
-            each(&mut mail, |(k, mail)| self.write(k, sent, &active, mail));
+    pub fn converge(&self, sent: &mut Vec<f32>, progress: &Progress) -> Result<()> {
+        let flags = |is_active: bool| -> Vec<AtomicBool> {
+            (0..self.candidates.vertices()).map(|_| AtomicBool::new(is_active)).collect()
+        };
+        let (mut active, mut later) = (flags(true), flags(false));
+        let mut fresh = sent.clone();
+        for k in 0..SWEEPS {
+            // Nothing swings yet in the first sweep.
+            let share = if k == 0 { 1.0 } else { DAMPING };
+            let sweep = Sweep { sent, active: &active, later: &later, share };
+            let parts = split(&mut fresh, self.candidates.grains());
+            each(parts, |(k, fresh)| self.write(k, &sweep, fresh));
             progress.advance(0)?;
-            if mail.iter().all(Vec::is_empty) {
+            swap(sent, &mut fresh);
+            swap(&mut active, &mut later);
+            if !active.iter().any(|flag| flag.load(Relaxed)) {
                 break;
             }
-            self.deliver(&mail, sent, &active);
         }
         Ok(())
     }
 
-    /// Write the messages of the active vertices of part `k`, which are not active any more.
-    fn write(&self, k: usize, sent: &[f32], active: &[AtomicBool], mail: &mut Mail) {
+    /// Write the messages of part `k`: new ones of its active vertices, which are not active any more.
+    fn write(&self, k: usize, sweep: &Sweep<'_>, fresh: &mut [f32]) {
         let mut work = Work::new();
-        mail.clear();
-        let first = k * GRAIN;
-        let last = (first + GRAIN).min(self.candidates.vertices());
-        for (v, active) in (first..last).zip(&active[first..last]) {
-            if active.swap(false, Relaxed) {
-                self.send(v, sent, &mut work);
-                let numbers = self.candidates.from(v).map(|e| e as u32);
-                mail.extend(numbers.zip(work.messages.iter().copied()));
+        let vertices = k * GRAIN..((k + 1) * GRAIN).min(self.candidates.vertices());
+        let first = self.candidates.from(vertices.start).start;
+        fresh.copy_from_slice(&sweep.sent[first..first + fresh.len()]);
+        for v in vertices {
+            if sweep.active[v].swap(false, Relaxed) {
+                self.send(v, sweep.sent, &mut work);
+                let range = self.candidates.from(v);
+                let own = &mut fresh[range.start - first..range.end - first];
+                self.damp(v, &work.messages, sweep, own);
             }
         }
     }
 
-    /// Damp the new messages into `sent`; where one changed, both of its ends are active.
-    fn deliver(&self, mail: &[Mail], sent: &mut [f32], active: &[AtomicBool]) {
-        let mut firsts = Vec::with_capacity(mail.len());
-        let mut first = 0;
-        for length in self.candidates.grains() {
-            firsts.push(first);
-            first += length;
-        }
-        let parts = split(sent, self.candidates.grains());
-        each(parts.into_iter().zip(mail), |(k, (sent, mail))| {
-            for &(e, message) in mail {
-                let own = &mut sent[e as usize - firsts[k]];
-                let change = (message - *own) / 2.0;
-                *own = f32::midpoint(*own, message);
-                if change.abs() > CONVERGED {
-                    let twin = self.candidates.twins[e as usize] as usize;
-                    for v in [self.candidates.ends[e as usize], self.candidates.ends[twin]] {
-                        active[v as usize].store(true, Relaxed);
-                    }
-                }
+    /// Move the messages of `v` towards new ones; where one changed, both ends send again.
+    fn damp(&self, v: usize, messages: &[f32], sweep: &Sweep<'_>, own: &mut [f32]) {
+        let mut moves = false;
+        for ((own, &message), &end) in
+            own.iter_mut().zip(messages).zip(self.candidates.neighbors(v))
+        {
+            let change = sweep.share * (message - *own);
+            *own = if sweep.share == 1.0 { message } else { *own + change };
+            if change.abs() > CONVERGED {
+                sweep.later[end as usize].store(true, Relaxed);
+                moves = true;
             }
-        });
+        }
+        if moves {
+            sweep.later[v].store(true, Relaxed);
+        }
     }
 
     /// Put the messages of `v` into `work`.
     fn send(&self, v: usize, sent: &[f32], work: &mut Work) {
-        let candidates = self.candidates;
-        let incoming = |e: usize| self.costs.edges[e] + sent[candidates.twins[e] as usize];
+        let Self { candidates, spacing, turns, costs } = self;
+        let range = candidates.from(v);
         work.incoming.clear();
-        work.incoming.extend(candidates.from(v).map(incoming));
-        work.pair_up(self, v);
-        work.answer(self.costs.ends[v], self.costs.alone[v]);
+        let twins = &candidates.twins[range.clone()];
+        let edges = &costs.edges[range.clone()];
+        work.incoming
+            .extend(edges.iter().zip(twins).map(|(cost, &twin)| cost + sent[twin as usize]));
+        let pairs = candidates.pairs(v);
+        let lengths = &spacing.lengths[range.start..range.start + pairs];
+        work.pair_up(turns.at(v), lengths, [costs.turns[v], costs.steps[v]]);
+        work.answer(costs.ends[v], costs.alone[v]);
     }
 
     /// The belief in each edge, by half-edge: what it costs beyond its absence, all else at its best.
@@ -126,10 +140,9 @@ impl Least {
     #[inline]
     fn meet(&mut self, value: f32, index: usize) {
         let is_less = value < self.value;
-        let greater = if is_less { self.value } else { value };
-        self.second = if greater < self.second { greater } else { self.second };
+        self.second = least(self.second, if is_less { self.value } else { value });
         self.index = if is_less { index } else { self.index };
-        self.value = if is_less { value } else { self.value };
+        self.value = least(self.value, value);
     }
 
     #[inline]
@@ -138,21 +151,48 @@ impl Least {
     }
 }
 
-/// Pairs at one vertex, padded so that a row of sums is a few vector instructions.
-const WIDTH: usize = 16;
-/// The width where few edges form pairs, as at most vertices.
-const HALF: usize = WIDTH / 2;
-/// Sums that one instruction adds.
-const LANES: usize = 4;
+/// The lesser number, without a thought of NaN: one instruction.
+#[inline]
+fn least(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+/// Numbers i < j of edges that form pairs, by j, then by i.
+const PAIRS: [[u8; 2]; MOST_PAIRS] = {
+    let mut pairs = [[0; 2]; MOST_PAIRS];
+    let (mut next, mut j) = (0, 1);
+    while j < MOST_PAIRED {
+        let mut i = 0;
+        while i < j {
+            pairs[next] = [i as u8, j as u8];
+            (next, i) = (next + 1, i + 1);
+        }
+        j += 1;
+    }
+    pairs
+};
+/// For each edge what a pair that it is in is to cost beside: infinity, so that it is out.
+const OUT: [[f32; MOST_PAIRS]; MOST_PAIRED] = {
+    let mut out = [[0.0; MOST_PAIRS]; MOST_PAIRED];
+    let mut next = 0;
+    while next < MOST_PAIRS {
+        let [i, j] = PAIRS[next];
+        out[i as usize][next] = f32::INFINITY;
+        out[j as usize][next] = f32::INFINITY;
+        next += 1;
+    }
+    out
+};
+const MOST_PAIRS: usize = MOST_PAIRED * (MOST_PAIRED - 1) / 2;
 
 /// The memory of one task.
 struct Work {
     /// What each edge costs as seen from its other end.
     incoming: Vec<f32>,
-    /// The same for those that form pairs, and infinity.
-    seen: [f32; WIDTH],
-    /// What each pair costs at the vertex; infinite for an edge and itself.
-    pairs: [[f32; WIDTH]; WIDTH],
+    /// For each edge that forms pairs: the least cost of a second one beside it.
+    beside: [f32; MOST_PAIRED],
+    /// What each pair costs, at the vertex and as seen from both other ends.
+    both: [f32; MOST_PAIRS],
     /// How many edges form pairs.
     count: usize,
     /// The answers.
@@ -161,32 +201,28 @@ struct Work {
 
 impl Work {
     fn new() -> Self {
-        Self {
-            incoming: Vec::new(),
-            seen: [f32::INFINITY; WIDTH],
-            pairs: [[f32::INFINITY; WIDTH]; WIDTH],
-            count: 0,
-            messages: Vec::new(),
-        }
+        let (beside, both) = ([f32::INFINITY; MOST_PAIRED], [f32::INFINITY; MOST_PAIRS]);
+        Self { incoming: Vec::new(), beside, both, count: 0, messages: Vec::new() }
     }
 
-    /// Put down what pairs cost at `v`.
-    fn pair_up(&mut self, factors: &Factors<'_>, v: usize) {
-        let Factors { candidates, spacing, turns, costs } = factors;
-        self.count = candidates.pairs(v);
-        let lengths = &spacing.lengths[candidates.from(v)][..self.count];
-        let mut turns = turns.at(v).iter();
-        for (i, &a) in lengths.iter().enumerate() {
-            for (j, &b) in lengths.iter().enumerate().skip(i + 1) {
-                let &turn = turns.next().expect("a turn for each pair");
-                let cost = costs.pair(v, turn, [a, b]);
-                self.pairs[i][j] = cost;
-                self.pairs[j][i] = cost;
+    /// Meet all pairs of the edges of these lengths, given their turns and the weights of turns and of steps.
+    fn pair_up(&mut self, turns: &[f32], lengths: &[f32], [turn, step]: [f32; 2]) {
+        self.count = lengths.len();
+        self.beside = [f32::INFINITY; MOST_PAIRED];
+        let mut start = 0;
+        for j in 1..self.count {
+            let (length, other, mut least_beside) = (lengths[j], self.incoming[j], f32::INFINITY);
+            let pairs = turns[start..start + j].iter().zip(&mut self.both[start..start + j]);
+            let firsts = lengths[..j].iter().zip(&self.incoming[..j]).zip(&mut self.beside[..j]);
+            for ((&root, both), ((&own, &seen), beside)) in pairs.zip(firsts) {
+                let cost = turn * root + step * (own - length).abs();
+                *beside = least(*beside, cost + other);
+                least_beside = least(least_beside, cost + seen);
+                *both = cost + (seen + other);
             }
+            self.beside[j] = least_beside;
+            start += j;
         }
-        // What is left of other vertices in the rows is beside an infinity.
-        self.seen = [f32::INFINITY; WIDTH];
-        self.seen[..self.count].copy_from_slice(&self.incoming[..self.count]);
     }
 
     /// On less off, for each edge.
@@ -195,60 +231,18 @@ impl Work {
         for (k, &cost) in self.incoming.iter().enumerate() {
             single.meet(cost, k);
         }
-        let seconds = self.seconds(&self.seen);
-        let mut pair = Least::NONE;
-        for (k, second) in seconds[..self.count].iter().enumerate() {
-            pair.meet(self.seen[k] + second, k);
-        }
-        let both = self.both(pair);
+        let both = &self.both[..self.count * self.count.saturating_sub(1) / 2];
+        let best = both.iter().copied().fold(f32::INFINITY, least);
+        let pair = both.iter().position(|&cost| cost == best).map_or([u8::MAX; 2], |k| PAIRS[k]);
+        let without = |k: usize| {
+            let others = both.iter().zip(&OUT[k]).map(|(cost, out)| cost + out);
+            others.fold(f32::INFINITY, least)
+        };
         self.messages.clear();
         for k in 0..self.incoming.len() {
-            let on = seconds[..self.count].get(k).map_or(end, |&second| end.min(second));
-            let pair = if both.contains(&k) { self.best_without(k) } else { pair.value };
-            self.messages.push(on - alone.min(end + single.without(k)).min(pair));
+            let on = if k < self.count { least(end, self.beside[k]) } else { end };
+            let pair = if pair.contains(&(k as u8)) && k < self.count { without(k) } else { best };
+            self.messages.push(on - least(least(alone, end + single.without(k)), pair));
         }
     }
-
-    /// For each edge the least cost of a second one beside it.
-    fn seconds(&self, seen: &[f32; WIDTH]) -> [f32; WIDTH] {
-        let mut seconds = [f32::INFINITY; WIDTH];
-        for (second, row) in seconds.iter_mut().zip(&self.pairs[..self.count]) {
-            let width = if self.count <= HALF { HALF } else { WIDTH };
-            *second = least_sum(&row[..width], &seen[..width]);
-        }
-        seconds
-    }
-
-    /// The two edges of the best pair, given the first.
-    fn both(&self, pair: Least) -> [usize; 2] {
-        if pair.index >= self.count {
-            return [usize::MAX; 2];
-        }
-        let mut second = Least::NONE;
-        for (k, cost) in self.pairs[pair.index][..self.count].iter().enumerate() {
-            second.meet(cost + self.seen[k], k);
-        }
-        [pair.index, second.index]
-    }
-
-    /// The cost of the best pair without edge `k`.
-    fn best_without(&self, k: usize) -> f32 {
-        let mut seen = self.seen;
-        seen[k] = f32::INFINITY;
-        let seconds = self.seconds(&seen);
-        least_sum(&seconds[..WIDTH], &seen[..WIDTH])
-    }
-}
-
-/// The least sum of two values at one place.
-#[inline]
-fn least_sum(a: &[f32], b: &[f32]) -> f32 {
-    let mut least = [f32::INFINITY; LANES];
-    for (a, b) in a.as_chunks::<LANES>().0.iter().zip(b.as_chunks::<LANES>().0) {
-        for lane in 0..LANES {
-            let sum = a[lane] + b[lane];
-            least[lane] = if sum < least[lane] { sum } else { least[lane] };
-        }
-    }
-    least.into_iter().fold(f32::INFINITY, f32::min)
 }

@@ -3,6 +3,7 @@
 //! The subgraph of the Delaunay triangulation with at most two edges a point that costs least, where a free end costs 1,
 //! found by message passing. Two rounds: the second judges turns, steps and lone points by what the first found nearby.
 
+mod approximation;
 mod candidates;
 mod constants;
 mod costs;

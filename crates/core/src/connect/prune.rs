@@ -104,7 +104,7 @@ fn vertex_cost(factors: &Factors<'_>, selection: &Selection, v: usize) -> f32 {
     let Factors { candidates, spacing, turns, costs } = factors;
     let Some(pair) = selection.pair(candidates, v) else { return costs.ends[v] };
     let lengths = pair.map(|k| spacing.lengths[candidates.from(v).start + k]);
-    costs.pair(v, turns.of(candidates, v, pair), lengths)
+    costs.pair(v, turns.of(v, pair), lengths)
 }
 
 fn drop_edges(factors: &Factors<'_>, selection: &mut Selection, component: &[usize]) {

@@ -16,14 +16,34 @@ pub fn ring_median(
         let mut ring = Vec::new();
         for (i, own) in part.iter_mut().enumerate() {
             let v = k * GRAIN + i;
-            let near = candidates.from(v).filter(|&e| counts(v, e));
             ring.clear();
-            ring.extend(near.map(|e| values[candidates.ends[e] as usize]).chain([*own]));
-            ring.retain(|value| !value.is_nan());
+            ring.extend(Some(*own).filter(|value| !value.is_nan()));
+            for e in candidates.from(v) {
+                let value = values[candidates.ends[e] as usize];
+                if counts(v, e) && !value.is_nan() {
+                    ring.push(value);
+                }
+            }
             *own = median(&mut ring).unwrap_or(*own);
         }
     });
     medians
+}
+
+/// So many values are sorted faster by insertion than their median is selected.
+const FEW: usize = 16;
+
+/// Sort a few numbers.
+fn sort(values: &mut [f64]) {
+    for k in 1..values.len() {
+        let own = values[k];
+        let mut place = k;
+        while place > 0 && values[place - 1] > own {
+            values[place] = values[place - 1];
+            place -= 1;
+        }
+        values[place] = own;
+    }
 }
 
 /// The median, of an even number the mean of the two in the middle; `None` of none.
@@ -32,6 +52,16 @@ pub fn median(values: &mut [f64]) -> Option<f64> {
     let count = values.len();
     if count == 0 {
         return None;
+    }
+    if count <= FEW {
+        sort(values);
+        let middle = count / 2;
+        let is_odd = count % 2 == 1;
+        return Some(if is_odd {
+            values[middle]
+        } else {
+            f64::midpoint(values[middle - 1], values[middle])
+        });
     }
     let (low, &mut middle, _) = values.select_nth_unstable_by(count / 2, f64::total_cmp);
     if count % 2 == 1 {

@@ -40,7 +40,7 @@ impl Roughness {
             }
             values
         };
-        let turn = |v: usize, pair: [usize; 2]| turns.of(candidates, v, pair).powi(2);
+        let turn = |v: usize, pair: [usize; 2]| turns.of(v, pair).powi(2);
         let step = |v: usize, pair: [usize; 2]| {
             let [a, b] = pair.map(|k| spacing.lengths[candidates.from(v).start + k]);
             (a - b).abs()
