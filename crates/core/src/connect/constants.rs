@@ -41,6 +41,10 @@ pub struct Constants {
     pub gap_jump: f64,
     /// Where the curve found first turns by this part of a half turn at most points, turning weighs half: about 25°.
     pub rough_turn: f64,
+    /// Nowhere is it taken to turn by more than this multiple of what it turns at most points of all …
+    pub rough_excess: f64,
+    /// … and this part of a half turn.
+    pub rough_least: f64,
     /// Where steps change by this logarithm at most points, lengths weigh half: twofold.
     pub rough_step: f64,
     /// Components whose steps are at least this part of the distances between isolated points may be outliers in a row …
@@ -71,6 +75,8 @@ pub const CONSTANTS: Constants = Constants {
     gap_free: 0.85,
     gap_jump: 2.5,
     rough_turn: 0.14,
+    rough_excess: 2.0,
+    rough_least: 0.02,
     rough_step: 0.7,
     prune_step: 0.23,
     prune_cost: 0.3,

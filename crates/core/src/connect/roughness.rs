@@ -5,7 +5,7 @@ use super::candidates::{Candidates, by_vertex};
 use super::constants::{Constants, ROUGHNESS_RINGS};
 use super::gaps::Gaps;
 use super::geometry::{Spacing, Turns};
-use super::rings::ring_median;
+use super::rings::{median, ring_median};
 use super::selection::Selection;
 
 /// What the first round found around each vertex; empty before.
@@ -19,6 +19,8 @@ pub struct Roughness {
     isolated: Vec<f32>,
     /// What gaps cost.
     pub gaps: Gaps,
+    /// How much turn is believed anywhere.
+    most_turn: f64,
 }
 
 impl Roughness {
@@ -46,6 +48,7 @@ impl Roughness {
             (a - b).abs()
         };
         Self {
+            most_turn: most_turn(candidates, selection, turn, constants),
             turns: smooth(&turn),
             steps: smooth(&step),
             isolated: isolated_share(spacing, selection, constants),
@@ -62,7 +65,7 @@ impl Roughness {
     /// How much turning weighs at `v`: less where the curve turns much anyway.
     #[must_use]
     pub fn turn_weight(&self, v: usize, constants: &Constants) -> f64 {
-        let ratio = self.turn(v) / constants.rough_turn;
+        let ratio = self.turn(v).min(self.most_turn) / constants.rough_turn;
         1.0 / (1.0 + ratio * ratio)
     }
 
@@ -80,6 +83,21 @@ impl Roughness {
         let share = self.isolated.get(v).copied().unwrap_or_default();
         1.0 - constants.alone_share * f64::from(share)
     }
+}
+
+/// The most that a curve is believed to turn anywhere: some more than at most points of all.
+///
+/// Where the first round went astray, as in the tail of a profile, its turns are great, and would excuse themselves.
+fn most_turn(
+    candidates: &Candidates,
+    selection: &Selection,
+    turn: impl Fn(usize, [usize; 2]) -> f32,
+    constants: &Constants,
+) -> f64 {
+    let mut turns: Vec<f64> = (0..candidates.vertices())
+        .filter_map(|v| selection.pair(candidates, v).map(|pair| f64::from(turn(v, pair))))
+        .collect();
+    constants.rough_excess * median(&mut turns).unwrap_or_default() + constants.rough_least
 }
 
 fn known(values: &[f64], v: usize) -> f64 {
