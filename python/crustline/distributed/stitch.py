@@ -100,8 +100,7 @@ def trace(folder: Path, tile: int, files: list[str], crs: Any) -> Any:
     `files` are all that may hold edges across tiles that end in this one.
     """
     graph = _graph(folder, tile, files)
-    rows = graph.row[graph.edges]
-    order = np.lexsort((rows[:, 1], rows[:, 0]))
+    edges = _in_row_order(graph)
     whole, (run, offsets), chains = _core.trace_tile(graph.xy, graph.edges, graph.cut, graph.row)
     record = {"rows": graph.row[run], "xy": graph.xy[run], "offsets": offsets}
     record |= dict(zip(("sites", "places", "counts"), chains, strict=True))
@@ -111,7 +110,7 @@ def trace(folder: Path, tile: int, files: list[str], crs: Any) -> Any:
         write(
             folder,
             f"edges/part-{tile:06}.parquet",
-            lambda part: write_pairs(part, ("i", "j"), [rows[order]]),
+            lambda part: write_pairs(part, ("i", "j"), [edges]),
         ),
         write(
             folder,
@@ -120,8 +119,22 @@ def trace(folder: Path, tile: int, files: list[str], crs: Any) -> Any:
         ),
         write_records(folder, f"chains/part-{tile:06}.arrow", [record]),
     ]
-    counts = {"edges": len(rows), "curves": len(whole[2]), "isolated": len(whole[3])}
+    counts = {"edges": len(edges), "curves": len(whole[2]), "isolated": len(whole[3])}
     return written, counts | {"chains": len(chains[2])}
+
+
+def _in_row_order(graph: _Graph) -> IntArray:
+    """Return the edges as rows, sorted.
+
+    Vertices of the tile come in the order of their rows, and so do those of other tiles after them;
+    only where a vertex has neighbors of both kinds must its edges change places.
+    """
+    rows = graph.row[graph.edges]
+    bridged = np.zeros(len(graph.row), bool)
+    bridged[graph.edges[graph.edges[:, 1] >= len(graph.degrees), 0]] = True
+    mixed = np.flatnonzero(bridged[graph.edges[:, 0]])
+    rows[mixed] = rows[mixed[np.lexsort((rows[mixed, 1], rows[mixed, 0]))]]
+    return rows
 
 
 def _degrees(graph: _Graph, ends: IntArray) -> IntArray:
