@@ -15,6 +15,7 @@ import random
 import sys
 import tempfile
 import time
+from itertools import accumulate
 from pathlib import Path
 
 if __name__ == "__main__":  # run as a script, it finds its neighbors
@@ -25,6 +26,12 @@ from fuzz.watch import Watch
 from hostile import Call
 
 NAMES = sorted(hostile.FUNCTIONS)
+#: Functions that look for the medial axis of a smooth curve take a hundred times as long.
+SLOW = {
+    "SmoothCurve.local_feature_size", "SmoothCurve.medial_axis", "crustline.is_r_sample",
+    "crustline.r_sample", "crustline.sample_for_error", "crustline.sampling_ratio",
+}  # fmt: skip
+WEIGHTS = list(accumulate(0.1 if name in SLOW else 1 for name in NAMES))
 PARAMETERS = {
     name: [
         (each.name, each.default is each.empty, hostile.fitting(name, each.name))
@@ -37,7 +44,7 @@ PARAMETERS = {
 def call(number: int, seed: int) -> Call:
     """Return a call: of its arguments most fit, and one or two may not."""
     rng = random.Random(f"{seed} {number}")
-    name = rng.choice(NAMES)
+    (name,) = rng.choices(NAMES, cum_weights=WEIGHTS)
     arguments = {
         parameter: rng.choice(fits if rng.random() < 0.8 else hostile.HOSTILE)
         for parameter, needed, fits in PARAMETERS[name]
