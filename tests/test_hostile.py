@@ -115,6 +115,13 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     ),
     "a target of no format": (lambda: cl.Points([]).write("a.none"), "^.{1,399}$"),
     "noise that is no number": (lambda: cl.denoise(hostile.RING, noise=["a"]), "noise must be a n"),
+    "a flag that is an array": (
+        lambda: cl.reconstruct(hostile.RING, fit=np.zeros((2, 2))),  # type: ignore[arg-type]
+        "fit must be True or False",
+    ),
+    "noise that is no row of numbers": (
+        lambda: cl.reconstruct(hostile.RING, fit=True, noise=[(0, 0), (1,)]), "noise must be a num"
+    ),
     "groups without end": (
         lambda: cl.by_group([(0, 0), (1, 1)], hostile.Endless()),  # type: ignore[arg-type]
         "groups: the labels are no flat list",

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from crustline.arrays import FloatArray, IntArray, as_edges, equal, read_only
+from crustline.arrays import FloatArray, IntArray, as_edges, as_floats, equal, read_only
 from crustline.certify import Certificate, certify
 from crustline.curves import Curves, trace
 from crustline.delaunay import Delaunay, as_delaunay, points_and_how
@@ -24,6 +24,7 @@ from crustline.interpolant import local_feature_size
 from crustline.medial_axis import MedialAxis, medial_axis
 from crustline.methods import as_method, connect, name_of
 from crustline.points import Points
+from crustline.scalars import as_flag
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -106,13 +107,13 @@ class Reconstruction:
         crs: str | None = None,
         **parameters: Any,
     ) -> None:
+        self.fit = as_flag("fit", fit)
         for name, given in (("noise", noise), ("crs", crs)):
-            if given is not None and not fit:
+            if given is not None and not self.fit:
                 raise InputError(f"{name} is for fitting curves: add fit=True")
         self.method: Callable[..., npt.ArrayLike] = as_method(method, parameters)
         self.parameters: Mapping[str, Any] = MappingProxyType(parameters)
         self.points: Points = points_and_how(points)[0]
-        self.fit = bool(fit)
         self._fit: dict[str, Any] = {"noise": _copied(noise), "crs": crs}
         self._given = points if isinstance(points, Delaunay) else self.points
 
@@ -219,7 +220,7 @@ def _rebuild(
 
 def _copied(noise: npt.ArrayLike | None) -> npt.ArrayLike | None:
     """Return the noise in a form that the caller cannot change any more."""
-    return read_only(np.array(noise)) if isinstance(noise, np.ndarray | list) else noise
+    return read_only(as_floats("noise", noise)) if isinstance(noise, np.ndarray | list) else noise
 
 
 def as_reconstruction(points: npt.ArrayLike | Delaunay | Reconstruction) -> Reconstruction:

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from crustline.arrays import FloatArray
+from crustline.errors import InputError
 
 __all__ = ["as_arrow", "as_table", "as_wkb", "column_of", "points_of_wkb"]
 
@@ -19,6 +20,10 @@ _POINTS = {
     21: ([("order", "u1"), ("type", "<u4"), ("xyz", "<f8", (2,))], (1,)),
     29: ([("order", "u1"), ("type", "<u4"), ("xyz", "<f8", (3,))], (1001, 0x8000_0001)),
 }
+
+
+# Units of time that Arrow has.
+_DURATIONS = ("s", "ms", "us", "ns")
 
 
 def column_of(array: Any) -> Column:
@@ -31,7 +36,9 @@ def column_of(array: Any) -> Column:
     kind = array.type
     if pa.types.is_dictionary(kind):
         return column_of(array.cast(kind.value_type))
-    if pa.types.is_temporal(kind) and not (pa.types.is_time(kind) or pa.types.is_duration(kind)):
+    if pa.types.is_duration(kind):
+        return np.asarray(array.to_numpy(zero_copy_only=False))
+    if pa.types.is_temporal(kind) and not pa.types.is_time(kind):
         unit = "us" if pa.types.is_timestamp(kind) else "D"
         return np.asarray(array.to_numpy(zero_copy_only=False)).astype(f"datetime64[{unit}]")
     if pa.types.is_floating(kind) or pa.types.is_integer(kind) or pa.types.is_boolean(kind):
@@ -57,9 +64,18 @@ def as_arrow(values: Column) -> Any:
         values = np.char.decode(values, "utf-8", "replace")
     if values.dtype.kind in "OU":
         return pa.array(values.tolist(), pa.string())
+    if values.dtype.kind == "m" and np.datetime_data(values.dtype)[0] not in _DURATIONS:
+        values = _in_seconds(values)
     if values.dtype.kind == "f":
         values = values.astype(np.float64, copy=False)
     return pa.array(np.ascontiguousarray(values))
+
+
+def _in_seconds(values: Column) -> Column:
+    seconds = values.astype("timedelta64[s]")
+    if (~np.isnat(values) & (seconds.astype(values.dtype) != values)).any():
+        raise InputError("a duration in a column is too long for seconds: write it as a number")
+    return seconds
 
 
 def as_table(columns: Mapping[str, Any]) -> Any:

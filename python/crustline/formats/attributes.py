@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from crustline.arrays import FloatArray, IntArray
 from crustline.curves import Curves
+from crustline.formats.names import find_coordinates, find_pair
 from crustline.points import Points
 
 
@@ -39,6 +40,36 @@ def attributes_of_points(points: Points, reserved: Collection[str] = ()) -> Attr
         taken.add(free)
         columns[free] = values
     return Attributes(points.z, columns, points.crs)
+
+
+def table_of(points: Points) -> dict[str, npt.NDArray[Any]]:
+    """Return the coordinates, z and the other columns, by names that lead back to the same.
+
+    The coordinates keep their names if these are known ones, else they are x and y; a column that
+    would be taken for a coordinate becomes input_NAME.
+    """
+    known = find_pair(points.names) == (0, 1)
+    columns: dict[str, npt.NDArray[Any]] = dict(
+        zip(points.names if known else ("x", "y"), points.xy.T, strict=True)
+    )
+    if points.z is not None:
+        columns["z"] = points.z
+    reserved: set[str] = set(columns)
+    while True:
+        others = attributes_of_points(points, reserved).columns
+        taken = _mistaken([*columns, *others], len(columns))
+        if not taken:
+            return columns | others
+        reserved |= taken
+
+
+def _mistaken(names: list[str], coordinates: int) -> set[str]:
+    """Return names of other columns that reading would take for coordinates."""
+    pair = find_pair(names)
+    found = find_coordinates(names, None, "") if pair else []
+    if found == list(range(coordinates)):
+        return set()
+    return {names[k] for k in found if k >= coordinates} or set(names[coordinates:])
 
 
 def without_curves(points: Points) -> Curves:

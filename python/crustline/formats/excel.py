@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
+import zipfile
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,6 +18,10 @@ from crustline.formats.source import Source
 from crustline.points import Points
 
 Row = list[Any]
+#: Cells of a sheet, empty ones included: they take a few dozen bytes each.
+_MOST_CELLS = 50_000_000
+#: Where a cell, or a row, says that it is.
+_PLACE = re.compile(rb'<(?:\w{1,20}:)?(?:c|row)\s[^>]*?\br="([A-Za-z]*)(\d+)"')
 
 
 def read(
@@ -60,6 +67,7 @@ def _sheet(source: Source, wanted: str | None) -> tuple[str, list[Row]]:
 
 def _sheets(source: Source) -> list[tuple[str, list[Row]]]:
     with source.path() as path, source.library("python-calamine"):
+        _refuse_far_cells(source, path)
         from python_calamine import CalamineWorkbook
 
         book = CalamineWorkbook.from_path(path)
@@ -67,6 +75,35 @@ def _sheets(source: Source) -> list[tuple[str, list[Row]]]:
             (name, book.get_sheet_by_name(name).to_python(skip_empty_area=True))
             for name in book.sheet_names
         ]
+
+
+def _refuse_far_cells(source: Source, path: Path) -> None:
+    """Refuse a sheet with a cell far from the others: the library makes room for all between.
+
+    What it has no room for ends the process.
+    """
+    if not zipfile.is_zipfile(path):
+        return
+    with zipfile.ZipFile(path) as archive:
+        for name in archive.namelist():
+            if name.startswith("xl/worksheets/") and name.endswith(".xml"):
+                places = _PLACE.findall(archive.read(name))
+                rows = {int(row) for _, row in places} or {0}
+                columns = [_column_number(each) for each in {letters for letters, _ in places}]
+                height, width = max(rows) - min(rows) + 1, max(columns, default=0) + 1
+                if height * width > _MOST_CELLS:
+                    raise source.error(
+                        f"a sheet spans {height:,} rows and {width:,} columns: "
+                        "delete what is far from the points"
+                    )
+
+
+def _column_number(letters: bytes) -> int:
+    """Return the position of a column by its letters: 0 for A."""
+    number = 0
+    for letter in letters.upper():
+        number = 26 * number + letter - 64
+    return number - 1
 
 
 def _numbers(

@@ -13,7 +13,7 @@ from crustline.arrays import IntArray
 from crustline.curves import Curves
 from crustline.errors import InputError
 from crustline.formats.arrow import as_table, as_wkb, column_of, points_of_wkb
-from crustline.formats.attributes import attributes_of_points
+from crustline.formats.attributes import table_of
 from crustline.formats.features import curve_columns
 from crustline.formats.format import Format
 from crustline.formats.geometries import from_wkb, geometries_of, vertices_of
@@ -224,13 +224,10 @@ def _crs_json(crs: str | None) -> Any:
 
 
 def write_feather(points: Points, target: Target) -> None:
-    """Write the coordinates by the names that they had, z, and the other columns."""
+    """Write the coordinates, z and the other columns, by names that lead back to the same."""
     import pyarrow.feather as feather
 
-    columns = dict(zip(points.names, points.xy.T, strict=True))
-    if points.z is not None:
-        columns["z"] = points.z
-    table = as_table(columns | attributes_of_points(points, reserved=columns).columns)
+    table = as_table(table_of(points))
     if points.crs is not None:
         table = table.replace_schema_metadata({_CRS: points.crs.encode()})
     with target.path(".feather") as path:

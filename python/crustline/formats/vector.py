@@ -106,7 +106,7 @@ class _Driver:
         with source.named(), source.library("GDAL"):
             if xyz is None:
                 return vertices_of(from_wkb(wkb)).points(columns, crs)
-            heights = columns.pop(self.height, None)
+            heights = columns.pop(self.height, None) if self.height else None
             z = xyz[:, 2] if xyz.shape[1] == 3 else heights
             return Points(xyz[:, :2], z=z, columns=columns, crs=crs)
 
@@ -163,8 +163,10 @@ class _Driver:
         columns = {}
         for name in table.column_names:
             array = table.column(name)
-            if name == _GEOMETRY or (array.null_count == len(array) and len(array)):
+            if name == _GEOMETRY:
                 continue
+            if self.standard and array.null_count == len(array) and len(array):
+                continue  # a column of the format that nobody filled
             values = column_of(array.combine_chunks())
             if name in self.standard and (values == self.standard[name]).all():
                 continue
@@ -213,8 +215,16 @@ class _Driver:
         self._write(parts, crs, target)
 
     def _ready(self, points: Points) -> Points:
-        if self.lonlat and points.crs is not None:
+        if not self.lonlat:
+            return points
+        if points.crs is not None:
             points = to_longitude_latitude(points)
+        beyond = np.flatnonzero((np.abs(points.xy) > (180, 90)).any(axis=1))
+        if len(beyond):
+            raise InputError(
+                f"points: row {beyond[0]}, {points.xy[beyond[0]].tolist()}, is no longitude and "
+                "latitude in degrees: say what it is by a CRS, or project it"
+            )
         return points
 
     def _write(self, parts: Sequence[_Part], crs: str | None, target: Target) -> None:
@@ -246,6 +256,10 @@ class _Driver:
         """Return a table with names, widths of whole numbers, and texts that the format takes."""
         import pyarrow as pa
 
+        for k, column in enumerate(table.columns):
+            if pa.types.is_duration(column.type):  # which GDAL does not know
+                texts = column_of(column.combine_chunks()).astype(str)
+                table = table.set_column(k, table.column_names[k], pa.array(texts))
         if self.longest:
             table = self._without_long_texts(table, target)
         if self.narrow:

@@ -10,8 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from crustline.curves import Curves
-from crustline.formats.attributes import attributes_of, attributes_of_points, texts
-from crustline.formats.names import find_coordinates, find_pair
+from crustline.formats.attributes import attributes_of, table_of, texts
 from crustline.formats.target import Target
 from crustline.points import Points
 
@@ -34,32 +33,8 @@ def write_curves(curves: Curves, target: Target, delimiter: str) -> None:
 
 
 def write_points(points: Points, target: Target, delimiter: str) -> None:
-    """Write the coordinates, z, the other columns, so that reading finds the same coordinates.
-
-    The coordinates keep their names if these are known ones; a column that would be taken for a
-    coordinate becomes input_NAME.
-    """
-    known = find_pair(points.names) == (0, 1)
-    columns = dict(zip(points.names if known else ("x", "y"), points.xy.T, strict=True))
-    if points.z is not None:
-        columns["z"] = points.z
-    reserved: set[str] = set(columns)
-    while True:
-        others = attributes_of_points(points, reserved).columns
-        taken = _mistaken([*columns, *others], len(columns))
-        if not taken:
-            break
-        reserved |= taken
-    target.write(_table(columns | others, delimiter))
-
-
-def _mistaken(names: list[str], coordinates: int) -> set[str]:
-    """Return names of other columns that reading would take for coordinates."""
-    pair = find_pair(names)
-    found = find_coordinates(names, None, "") if pair else []
-    if found == list(range(coordinates)):
-        return set()
-    return {names[k] for k in found if k >= coordinates} or set(names[coordinates:])
+    """Write the coordinates, z, the other columns, so that reading finds the same coordinates."""
+    target.write(_table(table_of(points), delimiter))
 
 
 def write_xyz(points: Points, target: Target) -> None:
