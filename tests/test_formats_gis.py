@@ -56,7 +56,7 @@ def test_any_points_come_back(key: str, points: cl.Points) -> None:
     try:
         back = again(points, key)
     except InputError as error:
-        assume("too long for seconds" not in str(error))
+        assume("beyond what" not in str(error))
         raise
     assert back.xy.tobytes() == points.xy.tobytes()
     assert (back.z is None) == (points.z is None)
@@ -65,12 +65,13 @@ def test_any_points_come_back(key: str, points: cl.Points) -> None:
     assert len(back.columns) == len(points.columns)
     for name, found in zip(points.columns, back.columns, strict=True):
         assert found in (name, f"input_{name}")
-        assert key == "feather" or found == name
         expected, values = points.columns[name], back.columns[found]
-        if expected.dtype.kind in "mM" and values.dtype.kind != "O":
+        if values.dtype == np.object_ and expected.dtype.kind in "mMu":  # which GDAL cannot hold
+            kind = "m8[s]" if expected.dtype.kind == "m" else expected.dtype
+            words = [each.removesuffix(" seconds") for each in values]
+            assert np.array(words).astype(kind).tolist() == expected.astype(kind).tolist(), name
+        elif expected.dtype.kind in "mM":
             assert np.array_equal(values, expected, equal_nan=True), name
-        elif expected.dtype.kind == "m":
-            assert values.tolist() == expected.astype("m8[s]").astype(str).tolist(), name
         else:
             assert plain(values) == plain(expected), name
 
@@ -510,3 +511,21 @@ def test_a_column_without_a_name_is_no_height() -> None:
     back = again(points, "gpkg")
     assert back.z is None
     assert list(back.columns) == ["", "none"]
+
+
+@pytest.mark.parametrize("suffix", ["gpkg", "fgb", "parquet", "feather"])
+def test_columns_of_taken_names_are_kept(tmp_path: Path, suffix: str) -> None:
+    """A column called geometry was lost; two that differ by case were refused."""
+    columns = {"geometry": ["a"], "fid": [7.5], "n": [1], "N": [2], "bbox": ["b"]}
+    cl.write(cl.Points([(1, 2)], columns=columns), tmp_path / f"a.{suffix}")
+    back = cl.read(tmp_path / f"a.{suffix}").columns
+    assert [each.tolist() for each in back.values()] == list(columns.values())
+
+
+def test_what_gdal_cannot_hold_is_text(tmp_path: Path) -> None:
+    """Whole numbers beyond 63 bits were rounded, and the year 32140 became 1970."""
+    columns = {"id": np.array([2**64 - 1], np.uint64), "t": np.array(["32140-01-02"], "M8[s]")}
+    cl.write(cl.Points([(1, 2)], columns=columns), tmp_path / "a.gpkg")
+    back = cl.read(tmp_path / "a.gpkg").columns
+    assert back["id"].tolist() == ["18446744073709551615"]
+    assert back["t"][0].startswith("32140-01-02")

@@ -65,17 +65,20 @@ def as_arrow(values: Column) -> Any:
     if values.dtype.kind in "OU":
         return pa.array(values.tolist(), pa.string())
     if values.dtype.kind == "m" and np.datetime_data(values.dtype)[0] not in _DURATIONS:
-        values = _in_seconds(values)
+        values = _as_unit(values, "s")
+    if values.dtype.kind == "M" and np.datetime_data(values.dtype)[0] != "D":
+        values = _as_unit(values, "us")  # as they are read
     if values.dtype.kind == "f":
         values = values.astype(np.float64, copy=False)
     return pa.array(np.ascontiguousarray(values))
 
 
-def _in_seconds(values: Column) -> Column:
-    seconds = values.astype("timedelta64[s]")
-    if (~np.isnat(values) & (seconds.astype(values.dtype) != values)).any():
-        raise InputError("a duration in a column is too long for seconds: write it as a number")
-    return seconds
+def _as_unit(values: Column, unit: str) -> Column:
+    """Return times or durations in another unit, or refuse those that it does not reach."""
+    made = values.astype(f"{values.dtype.kind}8[{unit}]")
+    if (~np.isnat(values) & (made.astype(values.dtype) != values)).any():
+        raise InputError(f"a time in a column is beyond what {unit} reach: write it as a number")
+    return made
 
 
 def as_table(columns: Mapping[str, Any]) -> Any:

@@ -107,6 +107,17 @@ def quote_all(names: Sequence[str]) -> str:
     return shown + (f" and {len(names) - 12} more" if len(names) > 12 else "")
 
 
+def apart(names: Sequence[str]) -> list[str]:
+    """Return names of which no two differ by their case alone; a later one becomes input_NAME."""
+    taken: dict[str, str] = {}
+    for name in names:
+        free = name
+        while free.lower() in taken:
+            free = f"input_{free}"
+        taken[free.lower()] = free
+    return list(taken.values())
+
+
 def _first_of(wanted: Sequence[str], names: Sequence[str]) -> list[int]:
     for spelled in _spellings(names):
         found = [spelled.index(name) for name in wanted if name in spelled]

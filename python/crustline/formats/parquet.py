@@ -13,7 +13,7 @@ from crustline.arrays import IntArray
 from crustline.curves import Curves
 from crustline.errors import InputError
 from crustline.formats.arrow import as_table, as_wkb, column_of, points_of_wkb
-from crustline.formats.attributes import table_of
+from crustline.formats.attributes import attributes_of_points, table_of
 from crustline.formats.features import curve_columns
 from crustline.formats.format import Format
 from crustline.formats.geometries import from_wkb, geometries_of, vertices_of
@@ -183,7 +183,9 @@ def _crs_name(crs: Any) -> str | None:
 def write_points(points: Points, target: Target) -> None:
     """Write a row a point."""
     kind = "Point" if points.z is None else "Point Z"
-    _write({**points.columns, _GEOMETRY: as_wkb(points.xy, points.z)}, [kind], points.crs, target)
+    columns: dict[str, Any] = attributes_of_points(points, reserved=(_GEOMETRY, "bbox")).columns
+    columns[_GEOMETRY] = as_wkb(points.xy, points.z)
+    _write(columns, [kind], points.crs, target)
 
 
 def write_curves(curves: Curves, target: Target, *, polygons: bool = False) -> None:

@@ -19,10 +19,11 @@ import numpy.typing as npt
 from crustline.curves import Curves
 from crustline.errors import CrustlineError, FormatError, FormatWarning, InputError
 from crustline.formats.arrow import as_table, as_wkb, column_of, points_of_wkb
+from crustline.formats.attributes import attributes_of_points
 from crustline.formats.features import curve_columns
 from crustline.formats.format import Format, Layer
 from crustline.formats.geometries import from_wkb, geometries_of, vertices_of
-from crustline.formats.names import quote_all
+from crustline.formats.names import apart, quote_all
 from crustline.formats.options import LAYER, POLYGONS, WHERE
 from crustline.formats.source import Source
 from crustline.formats.target import Target
@@ -256,10 +257,12 @@ class _Driver:
         """Return a table with names, widths of whole numbers, and texts that the format takes."""
         import pyarrow as pa
 
+        table = table.rename_columns(apart(table.column_names))
         for k, column in enumerate(table.columns):
-            if pa.types.is_duration(column.type):  # which GDAL does not know
-                texts = column_of(column.combine_chunks()).astype(str)
-                table = table.set_column(k, table.column_names[k], pa.array(texts))
+            kind = column.type
+            if pa.types.is_duration(kind) or pa.types.is_timestamp(kind) or kind == pa.uint64():
+                made = _in_words(column_of(column.combine_chunks()))
+                table = table.set_column(k, table.column_names[k], pa.array(made))
         if self.longest:
             table = self._without_long_texts(table, target)
         if self.narrow:
@@ -309,6 +312,20 @@ def _layers(path: Path) -> list[Layer]:
     ]
 
 
+def _in_words(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Return whole numbers of 63 bits and times of four-digit years, and all else as text.
+
+    GDAL knows no durations, rounds larger numbers, and takes other years for 1970.
+    """
+    if values.dtype.kind == "u" and int(values.max(initial=0)) < 2**63:
+        return values.astype(np.int64)
+    if values.dtype.kind == "M":
+        known = values[~np.isnat(values)]
+        if ((known >= np.datetime64("0001")) & (known < np.datetime64("10000"))).all():
+            return values
+    return np.array([str(value) for value in values])
+
+
 def _write_rows(table: Any, path: Path, options: dict[str, Any]) -> None:
     import pyogrio.raw
 
@@ -331,7 +348,8 @@ def _with_z(kind: str, points: Points) -> str:
 
 
 def _table_of_points(points: Points) -> Any:
-    return as_table({**points.columns, _GEOMETRY: as_wkb(points.xy, points.z)})
+    columns = attributes_of_points(points, reserved=(_GEOMETRY, "fid")).columns
+    return as_table({**columns, _GEOMETRY: as_wkb(points.xy, points.z)})
 
 
 def _parts(curves: Curves, polygons: bool, name: str) -> Iterator[_Part]:
