@@ -7,6 +7,8 @@ import { toScreen, type View } from "./view.ts";
 const RUN = 800;
 /** Points above which those on one pixel are drawn once. */
 const MANY = 4000;
+/** Half of the room of a label, in pixels. */
+const LABEL = [13, 7] as const;
 const TAU = 2 * Math.PI;
 
 export class CanvasPen implements Pen {
@@ -116,9 +118,15 @@ export class CanvasPen implements Pen {
     const { context, view } = this;
     context.fillStyle = color;
     context.font = "11px system-ui, sans-serif";
+    const taken = new Set<string>();
     for (const [row, text] of texts) {
       const [x, y] = toScreen(view, xy[2 * row]!, xy[2 * row + 1]!);
-      if (x >= -20 && y >= -20 && x <= view.width + 20 && y <= view.height + 20) context.fillText(text, x + 6, y - 5);
+      if (!(x >= -20 && y >= -20 && x <= view.width + 20 && y <= view.height + 20)) continue;
+      // Labels that would lie on each other are left out: zooming in brings them.
+      const [column, line] = [Math.round(x / LABEL[0]), Math.round(y / LABEL[1])];
+      if ([-1, 0, 1].some((dx) => [-1, 0, 1].some((dy) => taken.has(`${column + dx},${line + dy}`)))) continue;
+      taken.add(`${column},${line}`);
+      context.fillText(text, x + 6, y - 5);
     }
   }
 

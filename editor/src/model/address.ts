@@ -14,11 +14,17 @@ const LONGEST = 100_000;
 
 export class AddressError extends Error {}
 
-/** A state as plain data, for a file, an address or the browser's store. */
+/** A state as plain data, for a file or an address. */
 export function asPlain({ document, layers }: State): object {
   const { cloud, choice, other, source } = document;
   const rows = source ? { rows: Array.from(cloud.rows), source } : {};
   return { crustline: 1, points: Array.from(cloud.xy), choice, other, layers, ...rows };
+}
+
+/** The same for the browser's store, which takes arrays as they are. */
+export function asKept({ document, layers }: State): object {
+  const { cloud, choice, other, source } = document;
+  return { crustline: 1, points: cloud.xy, rows: cloud.rows, choice, other, layers, source };
 }
 
 export function fromPlain(value: unknown): State {

@@ -187,11 +187,11 @@ export class App implements Surface {
     this.updated(this.cloud);
   }
 
-  use(tool: Tool): void {
+  use(tool: Tool, quiet = false): void {
     this.tool = tool;
     this.stage.element.style.cursor = tool.cursor;
     for (const button of this.element.querySelectorAll<HTMLElement>("[data-tool]")) button.setAttribute("aria-pressed", String(button.dataset.tool === tool.name));
-    this.say(tool.says);
+    if (!quiet) this.say(tool.says);
   }
 
   fit(): void {

@@ -76,7 +76,7 @@ export function mount(root: HTMLElement, server: Server | null): App {
   next = themes(app);
   keyboard(app, commands);
   drops(app, files);
-  app.use(app.tools[0]!);
+  app.use(app.tools[0]!, true);
   return app;
 }
 

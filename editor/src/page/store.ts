@@ -1,6 +1,6 @@
 // The work of this tab, in the browser's own store: it survives a reload, and tabs do not mix.
 
-import { asPlain, fromPlain, type State } from "../model/address.ts";
+import { asKept, fromPlain, type State } from "../model/address.ts";
 
 const NAME = "crustline";
 const KEY = "crustline-tab";
@@ -33,7 +33,7 @@ export class Store {
 
   async keep(state: State, address: string): Promise<void> {
     const database = await this.database;
-    const plain = { ...asPlain(state), points: state.document.cloud.xy, rows: state.document.cloud.rows };
+    const plain = asKept(state);
     return new Promise((settle, fail) => {
       const change = database.transaction("tabs", "readwrite", { durability: "strict" });
       change.objectStore("tabs").put({ plain, address, at: Date.now() }, tabKey());
