@@ -21,7 +21,7 @@ from crustline.formats.names import find_coordinates
 from crustline.formats.options import COLUMNS, POLYGONS
 from crustline.formats.source import Source
 from crustline.formats.target import Target
-from crustline.points import Points
+from crustline.points import Points, own_points
 
 Chosen = Sequence[str | int] | None
 _GEOMETRY = "geometry"
@@ -92,14 +92,14 @@ def _points(table: Any, source: Source, columns: Chosen) -> Points:
 
 def _of(table: Any, source: Source, name: str, crs: str | None) -> Points:
     array = table.column(name)
-    xyz, rest = points_of_wkb(array), _columns(table, [name, "bbox"])
-    if xyz is None:
+    at_once, rest = points_of_wkb(array), _columns(table, [name, "bbox"])
+    if at_once is None:
         with source.library("shapely"):
             found = vertices_of(from_wkb(array))
         points = found.points(rest, crs)
         counts = np.bincount(found.owners, minlength=len(array))
         return points.replace(columns={**points.columns, **_lists_a_vertex(table, counts)})
-    return Points(xyz[:, :2], z=xyz[:, 2] if xyz.shape[1] == 3 else None, columns=rest, crs=crs)
+    return own_points(at_once[0], z=at_once[1], columns=rest, crs=crs)
 
 
 def _lists_a_vertex(table: Any, counts: IntArray) -> dict[str, npt.NDArray[Any]]:

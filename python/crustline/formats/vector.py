@@ -27,7 +27,7 @@ from crustline.formats.names import apart, quote_all
 from crustline.formats.options import LAYER, POLYGONS, WHERE
 from crustline.formats.source import Source
 from crustline.formats.target import Target
-from crustline.points import Points
+from crustline.points import Points, own_points
 from crustline.projection import to_longitude_latitude
 
 _NEEDS = ("pyogrio", "pyarrow", "shapely")
@@ -103,13 +103,13 @@ class _Driver:
             table, crs = self._table(source, path, layer, where)
         wkb = table.column(_GEOMETRY)
         columns = self._columns(table)
-        xyz = points_of_wkb(wkb)
+        found = points_of_wkb(wkb)
         with source.named(), source.library("GDAL"):
-            if xyz is None:
+            if found is None:
                 return vertices_of(from_wkb(wkb)).points(columns, crs)
             heights = columns.pop(self.height, None) if self.height else None
-            z = xyz[:, 2] if xyz.shape[1] == 3 else heights
-            return Points(xyz[:, :2], z=z, columns=columns, crs=crs)
+            xy, z = found
+            return own_points(xy, z=heights if z is None else z, columns=columns, crs=crs)
 
     def read_curves(
         self, source: Source, *, layer: str | None = None, where: str | None = None
@@ -132,7 +132,7 @@ class _Driver:
         import pyogrio
 
         with source.library("GDAL"), _quiet():
-            chosen = self._choose(source, _layers(path), layer)
+            chosen = self._choose(source, path, layer)
             try:
                 about, table = pyogrio.read_arrow(path, layer=chosen, where=where, encoding=None)
             except Exception as error:
@@ -144,13 +144,15 @@ class _Driver:
         names = [_GEOMETRY if each == name else each for each in table.column_names]
         return table.rename_columns(names), about["crs"]
 
-    def _choose(self, source: Source, layers: Sequence[Layer], wanted: str | None) -> str:
-        names = [each.name for each in layers]
+    def _choose(self, source: Source, path: Path, wanted: str | None) -> str:
+        names = list(_kinds(path))
         if wanted is not None:
             if wanted in names:
                 return wanted
             raise source.error(f"there is no layer {wanted!r:.60}: choose from {quote_all(names)}")
-        full = [each.name for each in layers if each.count != 0] or names
+        full = names
+        if len(names) > 1:  # counting takes time
+            full = [each.name for each in _layers(path) if each.count != 0] or names
         # GPX says the same again: the points of tracks and routes as points of their own.
         full = [each for each in full if f"{each[:-1]}_points" not in full]
         if not full:
@@ -302,13 +304,19 @@ class _Driver:
         )
 
 
+def _kinds(path: Path) -> dict[str, str]:
+    """Return the layers that hold geometries, and of which type these are."""
+    import pyogrio
+
+    return {name: kind for name, kind in pyogrio.list_layers(path).tolist() if kind}
+
+
 def _layers(path: Path) -> list[Layer]:
     import pyogrio
 
-    kinds = {name: kind for name, kind in pyogrio.list_layers(path).tolist() if kind}
     return [
         Layer(name, kind, pyogrio.read_info(path, layer=name, force_feature_count=True)["features"])
-        for name, kind in kinds.items()
+        for name, kind in _kinds(path).items()
     ]
 
 
