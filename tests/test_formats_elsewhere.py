@@ -261,3 +261,12 @@ def test_graphs_hold_the_same_edges(curves: cl.Curves) -> None:
     parts = sorted(map(len, networkx.connected_components(graph)))
     assert parts == [1, 9, 16, 24]
     assert len(networkx.cycle_basis(graph)) == 2
+
+
+def test_polygons_may_have_holes_of_different_sizes() -> None:
+    """New Zealand has four lakes; polygons with two unlike holes were a traceback."""
+    lakes = [circle(n, 1) + center for n, center in ((16, (-5, 0)), (18, (0, 0)), (20, (5, 0)))]
+    curves = cl.reconstruct(np.concatenate([circle(80, 12), *lakes]), method=cl.crust)
+    (polygon,) = curves.to_shapely(polygons=True)
+    assert polygon.is_valid
+    assert sorted(len(each.coords) - 1 for each in polygon.interiors) == [16, 18, 20]

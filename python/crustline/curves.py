@@ -16,6 +16,7 @@ from crustline.arrays import BoolArray, FloatArray, IntArray, as_edges, read_onl
 from crustline.delaunay import Delaunay, points_and_how
 from crustline.orientation import arranged, starts_of, turns_of
 from crustline.points import Points
+from crustline.projection import project
 from crustline.records import Record
 from crustline.scalars import as_flag
 
@@ -237,7 +238,9 @@ class Curves(Record, Sequence[Curve]):
         shells: IntArray = _core.shells(self.points.xy, self.indices, self.offsets, self.closed)
         return shells
 
-    def oriented(self, orient: str | None = None, *, start: Any = None) -> Curves:
+    def oriented(
+        self, orient: str | None = None, *, start: Any = None, crs: str | None = None
+    ) -> Curves:
         """Return the same curves in other directions, or from other points on.
 
         Parameters
@@ -251,6 +254,9 @@ class Curves(Record, Sequence[Curve]):
             direction, and each polyline at such an end; or the ring of a row starts there, and a
             polyline that ends there. Of equal points the smallest row is taken. By default starts
             are left as they are.
+        crs : str, optional
+            Where directions are decided, as for `crustline.project`, such as "auto": longitudes
+            and latitudes across the 180th meridian, or around a pole, have none of their own.
 
         Returns
         -------
@@ -273,6 +279,10 @@ class Curves(Record, Sequence[Curve]):
         >>> curves.oriented("cw", start=(1, 1))[0].indices.tolist()
         [2, 1, 0, 3]
         """
+        if crs is not None:
+            on_map = trace(project(self.points, crs), self.edges).oriented(orient)
+            kept = replace(on_map, points=self.points, isolated=self.isolated)
+            return kept.oriented(start=start)
         rule = self.orient if orient is None else orient
         turned = turns_of(rule, self._shells) != turns_of(self.orient, self._shells)
         starts = np.zeros(len(self), dtype=np.int64)

@@ -164,7 +164,8 @@ def _work(job: _Job) -> str | None:
     try:
         delaunay = Delaunay(job.source.read(), threads=job.source.threads or 1)
         made = job.method.reconstruction(delaunay)
-        write_with(job.orientation.of(made.curves), job.output, None, "write_curves", job.settings)
+        curves = job.orientation.of(made.curves, job.method.project)
+        write_with(curves, job.output, None, "write_curves", job.settings)
     except (CrustlineError, MemoryError) as error:
         return " ".join(str(error).split()) or "there is not enough memory"
     return None

@@ -23,11 +23,11 @@ class Orientation:
     orient: str | None
     start: Any
 
-    def of(self, curves: Curves) -> Curves:
-        """Return curves that run so."""
-        if self.orient is None and self.start is None:
+    def of(self, curves: Curves, project: str | None) -> Curves:
+        """Return curves that run so, on the map that they were found on."""
+        if (self.orient, self.start, project) == (None, None, None):
             return curves
-        return curves.oriented(self.orient, start=self.start)
+        return curves.oriented(self.orient, start=self.start, crs=project)
 
 
 def orientation_options(command: Command) -> Command:

@@ -59,7 +59,7 @@ def reconstruct(
         else reconstruction(source, method, output.quiet, by)
     ) as made:
         counts = _count(made)
-    output.write(orientation.of(made.curves))
+    output.write(orientation.of(made.curves, method.project))
     output.report(
         f"{source.name}: {_in_words(counts)}",
         {"input": source.name, "method": method.name, **counts},

@@ -118,7 +118,7 @@ def geometries_of(curves: Curves, features: Sequence[Feature]) -> Geometries:
     made = np.empty(len(features), dtype=np.object_)
     for number, feature in enumerate(features):
         if feature.kind == "polygon":
-            shell, *holes = (xyz[part] for part in feature.parts)
+            shell, *holes = (shapely.linearrings(xyz[part]) for part in feature.parts)
             made[number] = shapely.polygons(shell, holes or None)
         elif feature.kind == "points":
             made[number] = shapely.multipoints(xyz[feature.parts[0]])

@@ -152,7 +152,7 @@ class _Driver:
             raise source.error(f"there is no layer {wanted!r:.60}: choose from {quote_all(names)}")
         full = names
         if len(names) > 1:  # counting takes time
-            full = [each.name for each in _layers(path) if each.count != 0] or names
+            full = [each.name for each in _layers(path) if each.count != 0]
         # GPX says the same again: the points of tracks and routes as points of their own.
         full = [each for each in full if f"{each[:-1]}_points" not in full]
         if not full:
