@@ -172,6 +172,12 @@ def three_points(space: Any) -> None:
         space.add_point(each)
 
 
+def with_decoration(space: Any) -> None:
+    three_points(space)
+    space.add_text("x")
+    space.add_hatch()
+
+
 BARE = "0\nSECTION\n2\nENTITIES\n" + "".join(
     f"0\nPOINT\n8\n0\n10\n{x}\n20\n{y}\n30\n0.0\n" for x, y in XY
 )
@@ -190,10 +196,7 @@ DXF: dict[str, tuple[Callable[[], bytes], Any]] = {
     "a polyline in space": (
         lambda: drawn(lambda space: space.add_polyline3d([(*each, 7) for each in XY])), XY,
     ),
-    "texts and hatches beside": (
-        lambda: drawn(lambda space: (three_points(space), space.add_text("x"), space.add_hatch())),
-        XY,
-    ),
+    "texts and hatches beside": (lambda: drawn(with_decoration), XY),
     "cut off": (lambda: drawn(three_points)[:-900], None),
     "no drawing": (lambda: b"0\nSECTION\n2\nHEADER\n0\nENDSEC\n0\nEOF\n", []),
 }  # fmt: skip
@@ -229,7 +232,7 @@ def _date() -> Any:
     return datetime.datetime(2024, 1, 2, 3, 4)
 
 
-HEAD = [["x", "y"], *map(list, XY)]
+HEAD: list[Any] = [["x", "y"], *map(list, XY)]
 EXCEL: dict[str, tuple[bytes, Any]] = {
     "a header": (book(HEAD), XY),
     "no header": (book([list(each) for each in XY]), XY),

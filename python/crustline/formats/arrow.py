@@ -165,8 +165,8 @@ def _blocks(chunks: list[Any], size: int) -> Iterator[npt.NDArray[Any]]:
             yield points[start : start + _BLOCK]
 
 
-def _is_one_of(values: npt.NDArray[Any], codes: tuple[int, ...]) -> npt.NDArray[Any]:
-    found = values == codes[0]
+def _is_one_of(values: npt.NDArray[Any], codes: tuple[int, ...]) -> npt.NDArray[np.bool_]:
+    found: npt.NDArray[np.bool_] = values == codes[0]
     for code in codes[1:]:
         found = found | (values == code)
     return found
