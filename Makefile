@@ -88,7 +88,7 @@ bench-quick: build ## The same in under a minute, to the terminal.
 	$(PIP) -r benchmarks/requirements.txt
 	$(BIN)/python -m benchmarks.run --quick
 
-bench-instructions: ## Count instructions with callgrind and bytes with dhat, and fail past 2 % more than stored.
+bench-instructions: ## Count instructions with callgrind, and bytes a point, and fail past 2 % more than stored.
 	$(PYTHON) -m benchmarks.instructions
 
 # What cargo-fuzz would pass, so that a stable toolchain serves.

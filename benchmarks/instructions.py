@@ -1,13 +1,13 @@
-"""Count instructions and bytes of the core, without noise: `python -m benchmarks.instructions`.
+"""Count instructions and bytes of the core: `python -m benchmarks.instructions`.
 
-Runs the core's example `crust_once` under callgrind and under dhat, on one thread, and fails if a
-count is more than 2 % above the one stored in instructions.json; `--update` stores the counts anew.
-The crust is counted with its triangulation and the points' making, the medial axis and the
-certificate without: what they add to the crust.
+Runs the core's example `crust_once` on one thread and fails if a count is more than 2 % above the
+one stored in instructions.json; `--update` stores the counts anew. Instructions are counted by
+callgrind: those of the crust with its triangulation and the points' making, those of the medial
+axis and the certificate without: what they add to the crust.
 
-Bytes are the most that are allocated at one time, and are counted for two numbers of points: what
-the larger set takes more is bytes a point, and the rest of what the smaller set takes is what a
-thread holds for its leaves, however many points there are.
+Bytes are those that the process holds at its peak, for two numbers of points: what the larger set
+takes more is bytes a point, and neither the program nor what a thread holds for its leaves counts,
+nor memory that is asked for and not touched.
 """
 
 import argparse
@@ -20,7 +20,9 @@ from pathlib import Path
 HERE = Path(__file__).parent
 STORED = HERE / "instructions.json"
 TOLERANCE = 0.02
-N, MORE = 20_000, 60_000
+N = 20_000
+#: Numbers of points that memory is compared at, so large that its pages do not tell.
+FEW, MANY = 500_000, 2_000_000
 DISTRIBUTIONS = {
     "crust": ("uniform", "curves", "lattice", "circle"),
     "axis": ("uniform", "curves"),
@@ -31,7 +33,7 @@ BUILD_EXAMPLE = (
     *("--example", "crust_once", "--message-format", "json"),
 )
 CALLGRIND = ("valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null")
-DHAT = ("valgrind", "--tool=dhat", "--dhat-out-file=/dev/null")
+ENVIRONMENT = os.environ | {"RAYON_NUM_THREADS": "1"}
 
 
 def build_example() -> str:
@@ -43,24 +45,22 @@ def build_example() -> str:
     return str(next(m["executable"] for m in messages if m.get("executable")))
 
 
-def report(tool: tuple[str, ...], before: str, *command: str) -> int:
-    """Run a program under a tool, and return the number that it reports after `before`."""
-    environment = os.environ | {"RAYON_NUM_THREADS": "1"}
-    done = subprocess.run(
-        (*tool, *command), env=environment, check=True, capture_output=True, text=True
-    )
-    return int(done.stderr.rpartition(before)[2].split()[0].replace(",", ""))
-
-
 def instructions(program: str, name: str, work: str) -> int:
-    return report(CALLGRIND, "Collected : ", program, name, str(N), "1", work)
+    """Return how many instructions the program executes."""
+    command = (*CALLGRIND, program, name, str(N), "1", work)
+    done = subprocess.run(command, env=ENVIRONMENT, check=True, capture_output=True, text=True)
+    return int(done.stderr.rpartition("Collected : ")[2].split()[0])
 
 
-def peak(program: str, name: str, work: str) -> tuple[float, int]:
-    """Return the bytes a point at the peak, and the bytes that any number of points take."""
-    few, many = (report(DHAT, "At t-gmax: ", program, name, str(n), "1", work) for n in (N, MORE))
-    each = (many - few) / (MORE - N)
-    return round(each, 2), round(few - N * each)
+def peak(program: str, name: str, n: int, work: str) -> int:
+    """Return the most bytes that the program holds."""
+    command = (program, name, str(n), "1", work)
+    with subprocess.Popen(command, env=ENVIRONMENT, stdout=subprocess.DEVNULL) as running:
+        _, status, used = os.wait4(running.pid, 0)
+        running.returncode = os.waitstatus_to_exitcode(status)
+    if running.returncode:
+        raise subprocess.CalledProcessError(running.returncode, command)
+    return 1024 * used.ru_maxrss
 
 
 def counts(program: str) -> dict[str, float]:
@@ -70,9 +70,8 @@ def counts(program: str) -> dict[str, float]:
         for name in distributions:
             own = instructions(program, name, work) - found.get(f"crust {name} instructions", 0)
             found[f"{work} {name} instructions"] = own
-            each, rest = peak(program, name, work)
-            found[f"{work} {name} bytes a point"] = each
-            found[f"{work} {name} bytes beside"] = rest
+            few, many = (peak(program, name, n, work) for n in (FEW, MANY))
+            found[f"{work} {name} bytes a point"] = round((many - few) / (MANY - FEW), 1)
     return found
 
 

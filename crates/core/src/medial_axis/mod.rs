@@ -202,6 +202,9 @@ fn step_left(mesh: &Mesh<'_>, v: u32) -> (u32, bool) {
 /// For each triangle, the first of those on its circle that it is connected with.
 fn one_for_each_circle(mesh: &Mesh<'_>) -> Vec<u32> {
     let ties: Vec<[u32; 2]> = mesh.vertices().flat_map_iter(|p| mesh.ties(p)).collect();
+    if ties.is_empty() {
+        return (0..mesh.circles.len() as u32).collect();
+    }
     let mut circles = Forest::new(mesh.circles.len());
     for [a, b] in ties {
         circles.join(a, b);
