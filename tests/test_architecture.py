@@ -6,9 +6,11 @@ import ast
 import re
 from collections.abc import Iterable
 from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
 
 import pytest
 
+import crustline as cl
 import imports
 from imports import Import, layer
 
@@ -146,3 +148,28 @@ def test_no_rust_file_is_long(name: str) -> None:
     """Clippy counts the lines of functions: clippy.toml."""
     text = imports.RUST_FILES[name].read_text(encoding="utf-8").partition("#[cfg(test)]")[0]
     assert len(re.findall(r"^\s*(?!//)\S", text, re.MULTILINE)) <= LONGEST_FILE
+
+
+#: Methods that others are made of, or that pages and certificates speak of by name.
+BUILT_ON = {"crust", "connect", "beta_skeleton", "one_step_crust", "gabriel", "gamma_graph"}
+
+
+def code_of(path: Path) -> str:
+    """The text of a file of the package or the core, without comments and docstrings."""
+    text = path.read_text(encoding="utf-8")
+    if path.suffix == ".rs":
+        return re.sub(r"//.*", "", text)
+    tree = ast.parse(text)
+    documented = (ast.Module, ast.ClassDef, ast.FunctionDef)
+    for node in ast.walk(tree):
+        if isinstance(node, documented) and ast.get_docstring(node) is not None:
+            node.body[0] = ast.Pass()
+    return ast.unparse(tree)
+
+
+def test_a_method_is_named_in_five_files_as_contributing_says() -> None:
+    folders = (imports.ROOT / "crates" / "core" / "src", imports.ROOT / "python" / "crustline")
+    files = [path for folder in folders for path in folder.rglob("*.[rp][sy]")]
+    codes = [code_of(path) for path in files if path.stem != "tests"]
+    for name in {method.replace("-", "_") for method in cl.METHODS} - BUILT_ON:
+        assert sum(bool(re.search(rf"\b{name}\b", code)) for code in codes) == 5, name
