@@ -35,6 +35,12 @@ impl Incidence {
         Self { offsets, ends }
     }
 
+    /// The number of edges.
+    #[must_use]
+    pub fn edges(&self) -> usize {
+        self.ends.len() / 2
+    }
+
     /// The neighbors of `v`, each with the number of the edge to it.
     #[inline]
     #[must_use]

@@ -41,6 +41,19 @@ pub fn trace(
     Ok(trace_between(points, edges, |_| false, progress)?.0)
 }
 
+/// The same, but for the isolated points.
+///
+/// # Errors
+/// A cancelled `progress`.
+pub fn trace_edges(
+    points: &[Point],
+    edges: impl AsRef<[[u32; 2]]>,
+    progress: &Progress,
+) -> Result<Curves> {
+    let graph = graph(points, edges, progress)?;
+    Ok(follow(points, &graph, |_| false, progress)?.0.sorted())
+}
+
 /// The same for a part of all edges, which goes on at the rows that are `cut`.
 ///
 /// The curves without a cut row, whole; and the runs of rows from a stop to a stop, where curves end or may go on, with a cut
@@ -54,12 +67,33 @@ pub fn trace_between(
     cut: impl Fn(u32) -> bool,
     progress: &Progress,
 ) -> Result<(Curves, Vec<Vec<u32>>)> {
-    let count = edges.as_ref().len();
-    progress.enter(Stage::Trace, count)?;
-    memory::check(points.len() + count, BYTES)?;
-    let graph = Incidence::new(edges.as_ref(), points.len());
-    drop(edges);
-    let mut walk = Walk { graph: &graph, cut, used: vec![false; count], path: vec![] };
+    let graph = graph(points, edges, progress)?;
+    let (mut curves, runs) = follow(points, &graph, &cut, progress)?;
+    curves.isolated = isolated(points, &graph);
+    curves.isolated.retain(|&row| !cut(row));
+    drop(graph);
+    Ok((curves.sorted(), runs))
+}
+
+fn graph(
+    points: &[Point],
+    edges: impl AsRef<[[u32; 2]]>,
+    progress: &Progress,
+) -> Result<Incidence> {
+    let edges = edges.as_ref();
+    progress.enter(Stage::Trace, edges.len())?;
+    memory::check(points.len() + edges.len(), BYTES)?;
+    Ok(Incidence::new(edges, points.len()))
+}
+
+/// The curves without a cut row, in the order in which they are met, and the runs.
+fn follow(
+    points: &[Point],
+    graph: &Incidence,
+    cut: impl Fn(u32) -> bool,
+    progress: &Progress,
+) -> Result<(Curves, Vec<Vec<u32>>)> {
+    let mut walk = Walk { graph, cut, used: vec![false; graph.edges()], path: vec![] };
     let (mut curves, mut runs) = (Curves { offsets: vec![0], ..Curves::default() }, Vec::new());
     // From the stops first: what is left then are rings without one.
     for passes in [false, true] {
@@ -73,11 +107,7 @@ pub fn trace_between(
         }
         progress.advance(curves.indices.len())?;
     }
-    curves.isolated = isolated(points, &graph);
-    curves.isolated.retain(|&row| !(walk.cut)(row));
-    drop(walk);
-    drop(graph);
-    Ok((curves.sorted(), runs))
+    Ok((curves, runs))
 }
 
 /// The state of the tracing.

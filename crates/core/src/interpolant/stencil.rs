@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::point::{Point, cross, dot, sub};
 use crate::progress::Progress;
 use crate::space::bounds::Bounds;
-use crate::trace::trace;
+use crate::trace::trace_edges;
 use std::borrow::Cow;
 
 /// The error of a curvature, as a part of one over the extent, that rounding may cause.
@@ -36,7 +36,7 @@ pub fn stencil<'a>(
     if !curve.edges().iter().any(short) {
         return Ok(Cow::Borrowed(curve));
     }
-    let traced = trace(delaunay.points(), curve.edges(), progress)?;
+    let traced = trace_edges(delaunay.points(), curve.edges(), progress)?;
     let mut edges = Edges::new();
     for (ends, &closed) in traced.offsets.windows(2).zip(&traced.closed) {
         let whole = &traced.indices[ends[0]..ends[1]];

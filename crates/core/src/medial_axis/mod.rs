@@ -15,7 +15,7 @@ use crate::memory;
 use crate::parts::split;
 use crate::point::{Point, length, lexicographic, sub};
 use crate::progress::{Progress, Stage};
-use crate::trace::trace;
+use crate::trace::trace_edges;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
@@ -147,7 +147,7 @@ fn flipping(delaunay: &Delaunay, curve: &Adjacency, progress: &Progress) -> Resu
     if vertices.all(simple) {
         return Ok(vec![true; curve.edges().len()]);
     }
-    let traced = trace(delaunay.points(), curve.edges(), progress)?;
+    let traced = trace_edges(delaunay.points(), curve.edges(), progress)?;
     let mut flips = vec![false; curve.edges().len()];
     for (ends, _) in traced.offsets.windows(2).zip(&traced.closed).filter(|&(_, &closed)| closed) {
         let ring = &traced.indices[ends[0]..ends[1]];
