@@ -119,7 +119,7 @@ def test_every_row_has_a_vertex_near_it_or_is_an_outlier() -> None:
 
 
 @pytest.mark.parametrize("name", make.SMOOTH_CURVES)
-@pytest.mark.parametrize("r", [0.1, 0.2, 0.3])
+@pytest.mark.parametrize("r", [0.1, 0.2, 0.3, 0.4])
 def test_clean_samples_are_left_alone(name: str, r: float) -> None:
     sample = cl.r_sample(make.SMOOTH_CURVES[name], r, seed=1)
     found = cl.denoise(sample.points)
@@ -152,6 +152,34 @@ def test_several_passes_give_one_line() -> None:
     assert len(found.outliers) < 0.02 * len(points)
 
 
+def walks(seed: int, passes: int, noise: float) -> tuple[Rows, Rows, Rows]:
+    """A path, and fixes of several passes along it with the times at which they were taken."""
+    rng = np.random.default_rng(seed)
+    fine = np.linspace(0, 1, 4001)
+    phase = rng.uniform(0, 6)
+    path = lambda t: np.column_stack((6 * t, np.sin(6 * t + phase) + 0.3 * np.sin(15 * t)))  # noqa: E731
+    times = np.concatenate([k + np.sort(rng.uniform(0, 1, 150 + 30 * k)) for k in range(passes)])
+    return path(fine), path(times % 1) + rng.normal(0, noise, (len(times), 2)), times
+
+
+@pytest.mark.parametrize("order", ["by time", "of the rows at random"])
+@pytest.mark.parametrize("passes", [2, 3, 6])
+def test_passes_with_and_without_time_give_one_line(passes: int, order: str) -> None:
+    for seed in range(3):
+        path, fixes, times = walks(seed, passes, 0.05)
+        rows = np.random.default_rng(seed).permutation(len(fixes))
+        given = cl.Points(fixes, columns={"time": times}) if order == "by time" else fixes[rows]
+        found = cl.denoise(given)
+        assert topology(found) == (0, 1)
+        assert np.sqrt((distances(found.curves, path) ** 2).mean()) < 0.025
+        assert len(found.outliers) < 0.02 * len(fixes)
+        # A vertex stands for fixes of several passes: they are one line, not several.
+        own = (np.arange(len(fixes)) if order == "by time" else rows)[found.vertices >= 0]
+        owners = found.vertices[found.vertices >= 0]
+        spread = [len({int(t) for t in times[own[owners == v]]}) for v in np.unique(owners)]
+        assert max(spread) > 1
+
+
 def test_time_beside_the_points_is_kept_and_changes_nothing() -> None:
     points, _, _ = noisy("wave", 1.0, 0)
     timed = cl.Points(points, columns={"time": np.arange(len(points))})
@@ -160,14 +188,42 @@ def test_time_beside_the_points_is_kept_and_changes_nothing() -> None:
     assert found.curves == cl.denoise(points).curves
 
 
-def test_the_order_of_rows_and_the_number_of_threads_change_nothing() -> None:
-    points, _, _ = noisy("two rings", 1.0, 5)
-    found = cl.denoise(points)
-    order = np.random.default_rng(0).permutation(len(points))
-    moved = cl.denoise(points[order])
-    assert (moved.curves.points.xy == found.curves.points.xy).all()
-    assert (moved.vertices == found.vertices[order]).all()
-    assert cl.denoise(cl.Delaunay(points, threads=1)) == found
+@pytest.mark.parametrize("ratio", [0.5, 2.0])
+@pytest.mark.parametrize("name", ["two rings", "wave"])
+def test_the_order_of_rows_and_the_number_of_threads_change_nothing(
+    name: str, ratio: float
+) -> None:
+    points, _, noise = noisy(name, ratio, 5)
+    for given in (None, np.full(len(points), noise)):
+        found = cl.denoise(points, noise=given)
+        order = np.random.default_rng(0).permutation(len(points))
+        moved = cl.denoise(points[order], noise=given)
+        assert (moved.curves.points.xy == found.curves.points.xy).all()
+        assert (moved.vertices == found.vertices[order]).all()
+        for threads in (1, 2):
+            assert cl.denoise(cl.Delaunay(points, threads=threads), noise=given) == found
+
+
+def test_noise_that_varies_along_the_curve_is_followed() -> None:
+    rng = np.random.default_rng(12)
+    angle = np.sort(rng.uniform(0, 2 * np.pi, 1200))
+    each = 0.02 + 0.03 * (1 + np.cos(angle))
+    circle = np.column_stack((2 * np.cos(angle), 2 * np.sin(angle)))
+    found = cl.denoise(circle + rng.normal(size=circle.shape) * each[:, None])
+    assert topology(found) == (1, 0)
+    known = found.vertices >= 0
+    assert np.corrcoef(found.noise[known], each[known])[0, 1] > 0.9
+    assert 0.7 < np.median(found.noise[known] / each[known]) < 1.3
+
+
+@pytest.mark.parametrize("shape", ["uniform", "pixels"])
+def test_a_thick_slice_is_one_line(shape: str) -> None:
+    # Neither has a normal noise, and neither is two strands.
+    rng = np.random.default_rng(13)
+    x = rng.uniform(0, 200, 600)
+    points = np.column_stack((x, 6 * np.sin(x / 40) + rng.uniform(-3, 3, len(x))))
+    points = np.unique(np.rint(points), axis=0) if shape == "pixels" else points
+    assert topology(cl.denoise(points)) == (0, 1)
 
 
 def test_fit_of_reconstruct_is_denoise_with_rows_beside_the_vertices() -> None:
@@ -228,23 +284,39 @@ def test_noise_can_be_given_of_all_points_and_of_each() -> None:
     assert topology(found) == (1, 0)
 
 
-@pytest.mark.parametrize(
-    ("points", "noise", "message"),
-    [
-        ([(0, 0), (1, 1)], None, r"the 2 points are at 2 different places: .* three at least"),
-        ([(1, 2)] * 5, None, r"the 5 points are at 1 different places"),
-        ([(0, 0), (1, 0), (2, 1)], -1, r"noise must be 0 or more, not -1"),
-        ([(0, 0), (1, 0), (2, 1)], [0.1, 0.1], r"one for each of the 3 rows, not of shape \(2,\)"),
-        ([(0, 0), (1, 0), (2, 1)], [0.1, -0.2, 0.1], r"row 1: noise must be 0 or more, not -0.2"),
-        ([(0, 0), (1, 0), (2, 1)], [0.1, math.nan, 0], r"row 1: noise must be 0 or more, not nan"),
-        ([(0, 0), (1, 0), (2, 1)], 0, r"noise is 0 everywhere: leave it out"),
-        ([(0, 0), (1, 0), (2, 1)], 50, r"noise of 50 is larger than the extent .* 2.23607"),
-        ([(0, 0), (1, math.inf), (2, 1)], None, r"row 1"),
-    ],
-)
-def test_bad_input_is_refused_in_a_sentence(points: Any, noise: Any, message: str) -> None:
-    with pytest.raises(cl.InputError, match=message):
-        cl.denoise(points, noise=noise)
+LINE = [(0, 0), (1, 0), (2, 1)]
+BAD: dict[str, tuple[Any, Any, str]] = {
+    "two points": ([(0, 0), (1, 1)], None, r"the 2 points are at 2 different .* three at least"),
+    "all points equal": ([(1, 2)] * 5, None, r"the 5 points are at 1 different places"),
+    "negative noise": (LINE, -1, r"noise must be 0 or more, not -1"),
+    "negative noise of a row": (
+        LINE,
+        [0.1, -0.2, 0.1],
+        r"row 1: noise must be 0 or more, not -0\.2",
+    ),
+    "noise of the wrong length": (LINE, [0.1, 0.1], r"one for each of the 3 rows, .* \(2,\)"),
+    "noise in a table": (LINE, np.ones((3, 2)), r"one for each of the 3 rows, .* \(3, 2\)"),
+    "noise in words": (LINE, ["a", "b", "c"], r"noise"),
+    "ragged noise": (LINE, [[1], [1, 2], 3], r"noise"),
+    "no number": (LINE, [0.1, math.nan, 0], r"row 1: noise must be 0 or more, not nan"),
+    "noise zero everywhere": (LINE, 0, r"noise is 0 everywhere: leave it out"),
+    "noise zero in each row": (LINE, [0, 0, 0], r"noise is 0 everywhere: leave it out"),
+    "noise larger than the extent": (
+        LINE,
+        50,
+        r"noise of 50 is larger than the extent .* 2\.23607",
+    ),
+    "an infinite point": ([(0, 0), (1, math.inf), (2, 1)], None, r"row 1"),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_bad_input_is_refused_in_a_sentence(name: str) -> None:
+    points, noise, message = BAD[name]
+    for refused in (cl.denoise, lambda p, noise: cl.reconstruct(p, fit=True, noise=noise)):
+        with pytest.raises(cl.InputError, match=message) as caught:
+            refused(points, noise=noise)
+        assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize("closed", [True, False])

@@ -2,7 +2,7 @@
 
 Noise is normal, the same in both coordinates, and so many usual steps wide. Parameters are drawn
 uniformly over the ranges that are written here, from a seed that is the half, the noise and the
-number, as for `families`.
+number, as for `families`. A family is told the noise in steps.
 """
 
 from __future__ import annotations
@@ -78,18 +78,18 @@ def scene(
     )
 
 
-def ring(rng: Rng) -> Scene:
+def ring(rng: Rng, _: float) -> Scene:
     """A blob of 60 to 300 points."""
     return scene([blob(rng)], [int(rng.integers(60, 300))], rng)
 
 
-def line(rng: Rng) -> Scene:
+def line(rng: Rng, _: float) -> Scene:
     """A wave, an arc of 90 to 240°, or an open drawing, of 60 to 300 points."""
     kinds = [wave(rng), arc(rng.uniform(90, 240)), drawing(rng, 0.0, closed=False)]
     return scene([kinds[int(rng.integers(3))]], [int(rng.integers(60, 300))], rng)
 
 
-def components(rng: Rng) -> Scene:
+def components(rng: Rng, _: float) -> Scene:
     """2 to 5 rings and lines beside each other in cells, 60 to 150 points each."""
     outlines, counts = [], []
     for k in rng.permutation(9)[: rng.integers(2, 6)].tolist():
@@ -102,19 +102,19 @@ def components(rng: Rng) -> Scene:
     return scene(outlines, counts, rng)
 
 
-def corners(rng: Rng) -> Scene:
+def corners(rng: Rng, _: float) -> Scene:
     """A closed drawing of 100 to 300 points, half of its vertices sharp."""
     return scene([drawing(rng, 0.5)], [int(rng.integers(100, 300))], rng)
 
 
-def random(rng: Rng) -> Scene:
+def random(rng: Rng, _: float) -> Scene:
     """A blob of 100 to 400 points at random places: the gaps between them vary without bound."""
     outline, count = blob(rng), int(rng.integers(100, 400))
     points = at(outline, np.sort(rng.uniform(0, length(outline), count)))
     return Scene((outline,), points, length(outline) / count, np.ones(count))
 
 
-def varying(rng: Rng) -> Scene:
+def varying(rng: Rng, _: float) -> Scene:
     """A blob of 150 to 400 points whose noise varies fourfold along it."""
     turn = rng.uniform(0, 2 * np.pi)
 
@@ -124,7 +124,20 @@ def varying(rng: Rng) -> Scene:
     return scene([blob(rng)], [int(rng.integers(150, 400))], rng, noise)
 
 
-def passes(rng: Rng) -> Scene:
+def strands(rng: Rng, noise: float) -> Scene:
+    """Two nested blobs, or two waves, 3 to 6 deviations apart, of 100 to 300 points each."""
+    outline = wave(rng) if rng.random() < 0.5 else blob(rng, 0.15)
+    count = int(rng.integers(100, 300))
+    apart = rng.uniform(3, 6) * noise * length(outline) / count
+    ahead = np.roll(outline.points, -1, axis=0) - np.roll(outline.points, 1, axis=0)
+    if not outline.closed:
+        ahead[0], ahead[-1] = ahead[1], ahead[-2]
+    normal = np.stack([ahead[:, 1], -ahead[:, 0]], axis=1) / np.hypot(*ahead.T)[:, None]
+    other = Outline(outline.points + apart * normal, outline.closed)
+    return scene([outline, other], [count, round(count * length(other) / length(outline))], rng)
+
+
+def passes(rng: Rng, _: float) -> Scene:
     """2 to 5 passes of 100 to 200 points over an open drawing or wave; the step is that of all."""
     outline = drawing(rng, 0.0, closed=False) if rng.random() < 0.5 else wave(rng)
     count = int(rng.integers(2, 6))
@@ -133,7 +146,7 @@ def passes(rng: Rng) -> Scene:
     return Scene((outline,), points, length(outline) / len(points), np.ones(len(points)))
 
 
-NOISY: dict[str, Callable[[Rng], Scene]] = {
+NOISY: dict[str, Callable[[Rng, float], Scene]] = {
     "ring": ring,
     "line": line,
     "components": components,
@@ -141,6 +154,7 @@ NOISY: dict[str, Callable[[Rng], Scene]] = {
     "random steps": random,
     "varying noise": varying,
     "passes": passes,
+    "strands": strands,
 }
 
 
@@ -150,7 +164,7 @@ def noisy_cases(half: str, each: int, noise: float) -> Iterator[NoisyCase]:
         for number in range(each):
             key = [HALVES.index(half), number, round(100 * noise), *f"noisy {family}".encode()]
             rng = np.random.default_rng(key)
-            made = make(rng)
+            made = make(rng, noise)
             deviation = noise * made.step
             moved = made.points + deviation * made.noise[:, None] * rng.normal(
                 size=made.points.shape
@@ -164,8 +178,7 @@ def noisy_cases(half: str, each: int, noise: float) -> Iterator[NoisyCase]:
 def noisy_score(case: NoisyCase) -> NoisyScore:
     """Return how right `denoise` is."""
     found = cl.denoise(case.points)
-    curves = [found.curves.points.xy[curve.indices] for curve in found.curves]
-    paths = [Outline(xy, closed) for xy, closed in zip(curves, found.curves.closed, strict=True)]
+    paths = outlines(found.curves)
     truth, answer = [places(each) for each in case.outlines], [places(each) for each in paths]
     if not answer:
         return NoisyScore(case, found, False, float("nan"))
@@ -174,9 +187,14 @@ def noisy_score(case: NoisyCase) -> NoisyScore:
     return NoisyScore(case, found, kept, float(np.sqrt((distance**2).mean()) / case.noise))
 
 
-def places(outline: Outline) -> Array:
+def places(outline: Outline, count: int = PLACES) -> Array:
     """Return evenly spaced places of a curve."""
-    return at(outline, np.linspace(0, length(outline), PLACES))
+    return at(outline, np.linspace(0, length(outline), count))
+
+
+def outlines(curves: cl.Curves) -> list[Outline]:
+    """Return curves as outlines."""
+    return [Outline(curves.points.xy[each.indices], each.closed) for each in curves]
 
 
 def _match(case: NoisyCase, paths: list[Outline], truth: list[Array], answer: list[Array]) -> bool:

@@ -15,6 +15,7 @@ from .contact_sheet import draw_sheet
 from .families import HALVES, HARD, cases
 from .folder import read_folder
 from .measure import Score, parameter_free, scores
+from .noise_page import noise_section
 from .reasons import reason
 
 ROOT = Path(__file__).parents[2]
@@ -62,6 +63,7 @@ def main() -> None:
             "not shipped, since most of them may not be published.\n\n"
         ]
         page += [_methods(made), _groups(made), _failures(made["connect"], "folder")]
+    page += [noise_section()]
     (ROOT / "docs" / "accuracy.md").write_text("".join(page).rstrip() + "\n", encoding="utf-8")
 
 

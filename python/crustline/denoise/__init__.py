@@ -154,7 +154,7 @@ def denoise(
     Estimates throughout, and no theorem; the same for any order of the rows and number of threads.
     Curves of the method whose points have no noise to speak of, up to about 6 % of their spacing,
     keep them as their vertices (`unchanged`), unless `noise` is given. Sparse samples of bends,
-    beyond about r = 0.3, cannot be told from noise. Points that look like a curve in no window,
+    beyond about r = 0.4, cannot be told from noise. Points that look like a curve in no window,
     such as uniform ones, have no noise that could be told, NaN, and give no curve.
 
     The noise is taken to be normal and the same in all directions. Strands within about

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -16,10 +17,8 @@ from crustline.denoise.strand import Strand
 CLEAN = 0.06
 #: Points that a ring, and a line, has at least to be judged.
 FEWEST = {True: 8, False: 12}
-#: How a point lies to its two neighbors on either side, were they on a cubic at equal steps.
-CUBIC = np.array([-1.0, 4.0, 0.0, 4.0, -1.0]) / 6
-#: The deviation of that prediction's error for independent errors of deviation 1.
-SPREAD = float(np.sqrt(1 + (CUBIC**2).sum()))
+#: How many neighbors on either side predict a point.
+NEIGHBORS = (2, 3, 4)
 #: The median of the absolute value of a standard normal number.
 MEDIAN = 0.6745
 
@@ -38,15 +37,26 @@ def clean_strands(delaunay: Delaunay, method: Callable[..., ArrayLike]) -> list[
 
 
 def _noise(path: FloatArray, closed: bool) -> float:
-    """Return the deviation of points across their path, in steps, from what neighbors predict."""
+    """Return the deviation of points across their path, in steps, from what neighbors predict.
+
+    Bends are predicted the better the more neighbors are asked, noise is not: the least counts.
+    """
+    asked = [each for each in NEIGHBORS if len(path) > 2 * each + 1]
+    return min(_deviation(path, closed, each) for each in asked)
+
+
+def _deviation(path: FloatArray, closed: bool, asked: int) -> float:
+    """Return it for so many neighbors on either side, as if at equal steps on a polynomial."""
+    differences = np.array([(-1) ** k * math.comb(2 * asked, k) for k in range(2 * asked + 1)])
+    stencil = differences / differences[asked]
     count = len(path)
-    center = np.arange(count) if closed else np.arange(2, count - 2)
-    around = (center[:, None] + np.arange(-2, 3)) % count
-    error = path[center] - np.einsum("k,ikj->ij", CUBIC, path[around])
-    chord = path[around[:, 3]] - path[around[:, 1]]
+    center = np.arange(count) if closed else np.arange(asked, count - asked)
+    around = (center[:, None] + np.arange(-asked, asked + 1)) % count
+    error = np.einsum("k,ikj->ij", stencil, path[around])
+    chord = path[around[:, asked + 1]] - path[around[:, asked - 1]]
     length = np.hypot(*chord.T)
     across = np.abs(error[:, 0] * chord[:, 1] - error[:, 1] * chord[:, 0]) / length
-    return float(np.median(across / (length / 2)) / (MEDIAN * SPREAD))
+    return float(np.median(across / (length / 2)) / (MEDIAN * np.sqrt((stencil**2).sum())))
 
 
 def _strand(delaunay: Delaunay, rows: IntArray, closed: bool) -> Strand:

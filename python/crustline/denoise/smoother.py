@@ -24,8 +24,12 @@ from crustline.denoise.polygon import Feet, Polygon
 FREE = 3
 #: Third differences.
 STENCIL = np.array([-1.0, 3.0, -3.0, 1.0])
-#: How far apart unit loads are, in nodes, so that none feels another.
-APART = 400
+#: How far apart unit loads are, in lengths over which the fit smooths, so that none feels another.
+APART = 14.0
+#: Loads in such a length: in between, uncertainty is linear.
+LOADS = 3.0
+#: The exponents tried at first, both times from scratch, and those about the best one.
+WIDE, NARROW = np.linspace(-6, 12, 10), np.array([-1.0, -0.5, 0.0, 0.5, 1.0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,13 +46,12 @@ class Fit:
 def fit(points: FloatArray, noise: FloatArray, start: Polygon, rounds: int = 6) -> Fit:
     """Return the smooth curve near `start` that explains the points, each with its own noise."""
     polygon, weights = start, noise**-2.0
-    exponent, window = 3.0, 9.0
     for k in range(rounds):
         step = _Step(polygon, polygon.feet(points), weights)
-        exponents = exponent + window * np.linspace(-1, 1, 19 if k < 2 else 7)
-        tried = {each: step.evidence(each) for each in exponents}
-        exponent = min(tried, key=lambda each: tried[each])
-        window = 9.0 if k < 1 else 1.5
+        if k < 2:
+            exponent = step.likeliest(WIDE)
+        if k > 0:
+            exponent = step.likeliest(exponent + NARROW)
         moved = Polygon(
             polygon.nodes + step.move(exponent)[:, None] * polygon.normals, start.closed
         )
@@ -61,7 +64,8 @@ class _Step:
     """The linear problem about a polygon: how far each node moves along its normal."""
 
     def __init__(self, polygon: Polygon, feet: Feet, weights: FloatArray) -> None:
-        self.count, closed = len(polygon), polygon.closed
+        self.count, self.closed = len(polygon), polygon.closed
+        closed = polygon.closed
         self.band = 7 if closed else 3
         # Folding a ring in the middle brings its two ends together, so it is banded, too.
         k = np.arange(self.count)
@@ -139,6 +143,10 @@ class _Step:
             (self.weights * left**2).sum() + self.scale * 10.0**exponent * (rough**2).sum()
         )
 
+    def likeliest(self, exponents: FloatArray) -> float:
+        """Return that of some exponents which makes the points most likely."""
+        return float(exponents[int(np.argmin([self.evidence(each) for each in exponents]))])
+
     def evidence(self, exponent: float) -> float:
         """Return minus twice the restricted log-likelihood, but for a constant."""
         try:
@@ -156,16 +164,31 @@ class _Step:
         return float(np.sqrt(squares / max(len(self.offset) - FREE, 1)))
 
     def uncertainty(self, exponent: float) -> FloatArray:
-        """Return the standard deviations of the nodes for points whose noise is as they say."""
-        factor, variance = self._factor(exponent), np.empty(self.count)
-        apart = min(self.count, APART)
-        for first in range(0, apart, 50):
-            loaded = np.arange(first, min(first + 50, apart))
-            nodes = [np.arange(k, self.count, apart) for k in loaded]
-            loads = np.zeros((self.count, len(loaded)))
-            for column, own in enumerate(nodes):
-                loads[self.place[own], column] = 1.0
+        """Return the standard deviations of the nodes for points whose noise is as they say.
+
+        Those of a node feel the points within a length that the roughness sets against the data, in
+        nodes the sixth root of what they weigh beside each other.
+        """
+        balance = self.scale * 10.0**exponent * self.count / self.data[0].sum()
+        length = max(1.0, float(balance ** (1 / 6)))
+        stride = max(1, int(length / LOADS))
+        nodes = np.arange(0, self.count, stride)
+        if not self.closed:
+            nodes = np.unique(np.append(nodes, self.count - 1))
+        sets = max(1, int(len(nodes) * stride / (APART * length)))
+        variance = self._variances(self._factor(exponent), nodes, -(-len(nodes) // sets))
+        period = self.count if self.closed else None
+        return np.sqrt(np.interp(np.arange(self.count), nodes, variance, period=period))
+
+    def _variances(self, factor: FloatArray, nodes: IntArray, apart: int) -> FloatArray:
+        """Return the variances at nodes; of those so many apart none feels the other."""
+        variance = np.empty(len(nodes))
+        for first in range(0, apart, 16):
+            own = [np.arange(k, len(nodes), apart) for k in range(first, min(first + 16, apart))]
+            loads = np.zeros((self.count, len(own)))
+            for column, chosen in enumerate(own):
+                loads[self.place[nodes[chosen]], column] = 1.0
             solved = self._solve(factor, loads)
-            for column, own in enumerate(nodes):
-                variance[own] = solved[own, column]
-        return np.sqrt(np.maximum(variance, 0.0))
+            for column, chosen in enumerate(own):
+                variance[chosen] = solved[nodes[chosen], column]
+        return np.maximum(variance, 0.0)

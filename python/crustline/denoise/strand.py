@@ -24,7 +24,7 @@ LONG = 6.0
 #: Noise over the spacing that is none to speak of.
 CLEAN = 0.03
 #: Nodes in a window of the ridge, and on a strand at least.
-NODES, FEWEST = 3, 24
+NODES, FEWEST = 2, 24
 
 
 @dataclass(frozen=True, eq=False)
