@@ -86,7 +86,7 @@ def test_new_points_have_no_height_and_that_is_said(
     assert "1 new points have no height" in editor.message
     text = (tmp_path / "edited.csv").read_text().splitlines()
     assert text[0] == "x,y,name,count,heights"
-    assert text[-1].endswith(",,,")
+    assert text[-1].endswith(",,nan,nan")
 
 
 def test_a_bad_file_is_refused_in_the_librarys_sentence(
