@@ -319,6 +319,13 @@ def test_bad_input_is_refused_in_a_sentence(name: str) -> None:
         assert "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize("noise", [0.02, 0.05, 0.1])
+def test_pure_noise_with_a_known_deviation_gives_no_curve(noise: float) -> None:
+    for seed in range(3):
+        points = np.random.default_rng(seed).random((500, 2))
+        assert (cl.denoise(points, noise=noise).vertices < 0).mean() > 0.9
+
+
 @pytest.mark.parametrize("closed", [True, False])
 def test_circles_and_lines_cost_nothing(closed: bool) -> None:
     # Without noise the fit of an arc is the arc, but for the sagitta of its 60 chords.

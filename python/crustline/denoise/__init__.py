@@ -155,7 +155,8 @@ def denoise(
     Curves of the method whose points have no noise to speak of, up to about 6 % of their spacing,
     keep them as their vertices (`unchanged`), unless `noise` is given. Sparse samples of bends,
     beyond about r = 0.4, cannot be told from noise. Points that look like a curve in no window,
-    such as uniform ones, have no noise that could be told, NaN, and give no curve.
+    such as uniform ones, have no noise that could be told, NaN, and give no curve, also where
+    `noise` is given.
 
     The noise is taken to be normal and the same in all directions. Strands within about
     six deviations of each other can merge or be crossed from one to the other, and bends sharper
@@ -190,15 +191,27 @@ def denoise(
         return _in_crs(delaunay, crs, noise=noise, method=method)
     given = None if noise is None else as_noise(noise, delaunay.points.xy)
     parts = clean_strands(delaunay, method) if given is None else []
-    rows = np.flatnonzero(rest(delaunay, parts))
-    if parts:
-        left = delaunay.alike(delaunay.points.xy[rows]) if len(rows) >= ROWS else None
+    is_left = rest(delaunay, parts) if given is None else _looks_like_a_curve(delaunay)
+    rows = np.flatnonzero(is_left)
+    if len(rows) == len(delaunay):
+        left: Delaunay | None = delaunay
     else:
-        left = delaunay
+        left = delaunay.alike(delaunay.points.xy[rows]) if len(rows) >= ROWS else None
     if left is not None:
-        ridge = _core.ridge(left._core, given, *delaunay._how)
+        known = None if given is None else given[rows]
+        ridge = _core.ridge(left._core, known, *left._how)
         parts += [part.of_rows(rows) for part in strands(left, ridge, method)]
     return _assembled(delaunay.points, parts)
+
+
+def _looks_like_a_curve(delaunay: Delaunay) -> BoolArray:
+    """Return where the noise could be estimated: knowing it does not make a curve of a cloud."""
+    first_rows, noise = delaunay.run(_core.ridge, None)[:2]
+    is_seen = np.zeros(len(delaunay), bool)
+    is_seen[first_rows] = np.isfinite(noise)
+    repeated, first = delaunay.duplicates.T
+    is_seen[repeated] = is_seen[first]
+    return is_seen
 
 
 def _in_crs(delaunay: Delaunay, crs: str, **how: Any) -> Denoised:
