@@ -45,7 +45,7 @@ pub struct Constants {
     pub rough_excess: f64,
     /// … and this part of a half turn.
     pub rough_least: f64,
-    /// Where steps change by this logarithm at most points, lengths weigh half: twofold.
+    /// Where steps change by this logarithm at most points, lengths weigh half: nearly twofold.
     pub rough_step: f64,
     /// Components whose steps are at least this part of the distances between isolated points may be outliers in a row …
     pub prune_step: f64,
@@ -60,7 +60,7 @@ pub const CONSTANTS: Constants = Constants {
     turn: 0.9,
     step: 0.12,
     alone: 1.2,
-    alone_slope: 0.12,
+    alone_slope: 0.16,
     alone_least: 0.1,
     alone_most: 3.0,
     alone_share: 0.5,
@@ -68,8 +68,8 @@ pub const CONSTANTS: Constants = Constants {
     sight: 0.75,
     sight_free: 0.1,
     near: 0.3,
-    long: 0.2,
-    close: 0.25,
+    long: 0.18,
+    close: 0.21,
     reach: 4.0,
     gap: 8.0,
     gap_free: 0.85,
@@ -77,7 +77,7 @@ pub const CONSTANTS: Constants = Constants {
     rough_turn: 0.14,
     rough_excess: 2.0,
     rough_least: 0.02,
-    rough_step: 0.7,
+    rough_step: 0.64,
     prune_step: 0.23,
     prune_cost: 0.3,
     prune_size: 0.33,
@@ -106,7 +106,7 @@ pub const SWEEPS: usize = 8;
 /// How much of its change a message makes: less than all, so that none swings to and fro.
 pub const DAMPING: f32 = 0.6;
 /// Messages that change by no more than this have converged; an end costs 1.
-pub const CONVERGED: f32 = 1e-2;
+pub const CONVERGED: f32 = 3e-2;
 /// Components of fewer points than this are dropped where points are isolated: outliers pair up.
 pub const FEWEST: usize = 4;
 /// How many isolated points it takes to prune at all.
