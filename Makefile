@@ -23,7 +23,7 @@ $(STAMP): $(SOURCES) $(LOCK)
 	$(PYTHON) -c 'import sys; sys.exit("crustline needs Python 3.11 or later") if sys.version_info < (3, 11) else None'
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	@if test "$$($(BIN)/python -c 'import platform, sys; print(*sys.version_info[:2], sep=".", end=" "); print(sys.platform, platform.machine())')" = "$(PINNED)"; \
-	then set -x; $(PIP) --require-hashes --requirement $(LOCK) && $(PIP) --no-deps --no-build-isolation --editable .; \
+	then set -x; $(PIP) --require-hashes --requirement $(LOCK) && PATH="$(CURDIR)/$(BIN):$$PATH" $(PIP) --no-deps --no-build-isolation --editable .; \
 	else set -x; $(PIP) --editable '.[test]'; fi
 	@touch $(STAMP)
 
