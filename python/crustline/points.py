@@ -166,6 +166,8 @@ class Points:
         >>> Points([(8.5, 47.4)], names=("lon", "lat")).replace(crs="EPSG:4326")
         <Points: 1 row of lon, lat; crs EPSG:4326>
         """
+        if changes.keys() == {"crs"}:  # read from files they would be copied twice
+            return _rebuild(self.xy, self.z, dict(self.columns), as_crs(changes["crs"]), self.names)
         kept = {name: getattr(self, name) for name in self.__slots__ if name != "xy"}
         return Points(self.xy, **(kept | changes))
 
@@ -242,7 +244,7 @@ def own_points(
     xy = as_points(xy)
     beside = {name: _as_column(name, each, len(xy), np.asarray) for name, each in
               (columns or {}).items()}  # fmt: skip
-    heights = None if z is None else _as_heights(z, len(xy))
+    heights = None if z is None else _as_finite(np.asarray(z, dtype=np.float64), len(xy))
     return _rebuild(xy, heights, beside, as_crs(crs), _X_Y)
 
 
@@ -267,7 +269,10 @@ def _rebuild(
 
 
 def _as_heights(z: npt.ArrayLike, n: int) -> FloatArray:
-    heights = as_floats("z", z)
+    return _as_finite(as_floats("z", z), n)
+
+
+def _as_finite(heights: FloatArray, n: int) -> FloatArray:
     if heights.shape != (n,):
         raise InputError(f"z: the shape is {heights.shape}, not ({n},): pass one height a row")
     finite = np.isfinite(heights)
