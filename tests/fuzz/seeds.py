@@ -86,6 +86,8 @@ PLAIN: dict[str, list[bytes]] = {
 #: Formats that one file is written in, and the parts of a Shapefile.
 WRITTEN = ("gpkg", "fgb", "kml", "gpx", "parquet", "feather", "dxf")
 SHAPEFILE = ("shp", "shx", "dbf", "prj")
+#: All that `seeds` may have.
+KEYS = (*PLAIN, *WRITTEN, *SHAPEFILE, "excel")
 
 
 def _things() -> list[cl.Points | cl.Curves]:
