@@ -52,6 +52,8 @@ def test_json_for_programs(run):
     summary = json.loads(out)
     assert summary.pop("seconds") >= 0
     assert summary.pop("isolated") == 0
+    assert summary.pop("merged") == 0
+    assert 0 <= summary.pop("connection")["confidence"] <= 1
     assert summary == {
         "input": "square.csv",
         "method": "connect",

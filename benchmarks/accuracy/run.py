@@ -7,16 +7,20 @@ from __future__ import annotations
 
 import sys
 from collections import Counter
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
+import crustline as cl
+
 from .contact_sheet import draw_sheet
-from .families import HALVES, HARD, cases
+from .families import HALVES, HARD, JUNCTIONS, cases
 from .folder import read_folder
-from .measure import Score, parameter_free, scores
+from .measure import Score, parameter_free, score, scores
 from .noise_page import noise_section
 from .reasons import reason
+from .reliability import reliability
 
 ROOT = Path(__file__).parents[2]
 BUILD = ROOT / "benchmarks" / "build" / "accuracy"
@@ -56,6 +60,8 @@ def main() -> None:
             page += [GENERATED.format(looks=looks, date="this run included")]
             page += [_methods(made)]
         page += [_groups(made), _promise(made["connect"]), _failures(made["connect"], half)]
+        if half == "unseen":
+            page += [_junctions(half), reliability(cases(half, EACH))]
     for folder in map(Path, sys.argv[1:2]):
         made = scores(read_folder(folder), parameter_free())
         page += [
@@ -106,6 +112,19 @@ def _failures(own: list[Score], name: str) -> str:
     return (
         f"Failures of `connect`, junctions aside: {len(failures)}.\n\n" + "\n".join(lines) + "\n\n"
     )
+
+
+def _junctions(half: str) -> str:
+    """Return how often `junctions=True` is right where curves meet, beside the crust."""
+    lines = ["| curves that meet | `junctions=True` | crust |", "|---|---|---|"]
+    for name, family in JUNCTIONS.items():
+        own = cases(half, EACH, {name: family})
+        for_all = [
+            _share([score(case, method(case.points)) for case in own])
+            for method in (partial(cl.connect, junctions=True), cl.crust)
+        ]
+        lines.append(f"| {name} | {for_all[0]:.1%} | {for_all[1]:.1%} |")
+    return "\n".join(lines) + "\n\n"
 
 
 def _share(own: list[Score]) -> float:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from crustline import distributed, shapes, theory
     from crustline._core import __version__
     from crustline.certify import Certificate, certify
+    from crustline.connection import Connection, connection
     from crustline.curves import Curve, Curves, Polygon, trace
     from crustline.delaunay import Delaunay
     from crustline.denoise import Denoised, denoise
@@ -55,6 +56,7 @@ if TYPE_CHECKING:
     from crustline.shapes.ratio import is_r_sample, sampling_ratio
     from crustline.shapes.sampling import Sample, r_sample, sample_for_error
     from crustline.smooth import Spline, Splines, smooth
+    from crustline.stability import beta_interval, beta_of, max_edge_interval
     from crustline.theory import guaranteed_r
     from crustline.thinning import thin
 
@@ -62,6 +64,7 @@ if TYPE_CHECKING:
 _NAMES = {
     "_core": "__version__",
     "certify": "Certificate certify",
+    "connection": "Connection connection",
     "curves": "Curve Curves Polygon trace",
     "delaunay": "Delaunay",
     "denoise": "Denoised denoise",
@@ -82,6 +85,7 @@ _NAMES = {
     "reconstruction": "Reconstruction reconstruct",
     "shapes.ratio": "is_r_sample sampling_ratio",
     "shapes.sampling": "Sample r_sample sample_for_error",
+    "stability": "beta_interval beta_of max_edge_interval",
     "smooth": "Spline Splines smooth",
     "theory": "guaranteed_r",
     "thinning": "thin",
@@ -120,6 +124,7 @@ modules[__name__].__class__ = _Package
 __all__ = [
     "METHODS",
     "Certificate",
+    "Connection",
     "CrustlineError",
     "Curve",
     "Curves",
@@ -140,12 +145,15 @@ __all__ = [
     "__version__",
     "a_shape",
     "alpha_shape",
+    "beta_interval",
+    "beta_of",
     "beta_skeleton",
     "by_group",
     "certify",
     "close_gaps",
     "compatible_crust",
     "connect",
+    "connection",
     "conservative_crust",
     "crawl",
     "crossing_angle_graph",
@@ -159,6 +167,7 @@ __all__ = [
     "hnn_crust",
     "is_r_sample",
     "local_feature_size",
+    "max_edge_interval",
     "medial_axis",
     "merge",
     "minimum_spanning_tree",

@@ -11,6 +11,7 @@ __all__ = [
     "__version__",
     "candidates",
     "connect",
+    "connection",
     "decide",
     "first_not_finite",
     "is_canonical",
@@ -55,6 +56,12 @@ def connect(
     threads: int | None = None,
     progress: _Progress | None = None,
 ) -> _Integers: ...
+def connection(
+    delaunay: Delaunay,
+    hints: Any = None,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> dict[str, Any]: ...
 def first_not_finite(points: _Floats) -> int | None: ...
 def select(
     delaunay: Delaunay,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crustline.arrays import IntArray, read_only
+from crustline.arrays import FloatArray, IntArray, read_only
 from crustline.delaunay import Delaunay, as_delaunay
 from crustline.errors import InputError
 from crustline.points import Points
@@ -17,6 +17,8 @@ __all__ = ["Merged", "merge"]
 
 #: A group wider than this many tolerances is a chain of points, not one point that was rounded.
 WIDEST = 3.0
+#: Points nearer to each other than this part of the distance to all others look like one point.
+NEAR = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +38,23 @@ class Merged:
     points: Points
     rows: IntArray
     merged: IntArray
+
+    def snapped(self, points: Points) -> Points:
+        """Return all the points that were given, those merged at the place of what stands for them.
+
+        Merged rows are repeated points then, with all their rows as they were.
+        """
+        xy = points.xy.copy()
+        xy[self.merged[:, 0]] = xy[self.merged[:, 1]]
+        kept = {name: getattr(points, name) for name in ("z", "columns", "crs", "names")}
+        return Points(xy, **kept)
+
+    @property
+    def stands(self) -> IntArray:
+        """For each row that was given, shape (n,), the one that stands for it."""
+        stands = np.arange(len(self.rows) + len(self.merged))
+        stands[self.merged[:, 0]] = self.merged[:, 1]
+        return stands
 
     def __repr__(self) -> str:
         return f"<Merged: {len(self.rows):,} points, {len(self.merged):,} rows merged>"
@@ -87,6 +106,62 @@ def merge(points: ArrayLike | Delaunay, tolerance: float) -> Merged:
     gone = np.flatnonzero(stands != np.arange(len(xy)))
     merged = np.stack([gone, stands[gone]], axis=1)
     return Merged(delaunay.points.select(rows), read_only(rows), read_only(merged))
+
+
+def near_tolerance(points: ArrayLike | Delaunay) -> float | None:
+    """Return a tolerance for `merge` if some points look like one point that was rounded, or None.
+
+    They do if they are nearer to each other than 10⁻⁶ of the distance from any of them to the
+    nearest point that is not one of them, and no wider apart than `merge` accepts.
+
+    Examples
+    --------
+    >>> near_tolerance([(0, 0), (1, 0), (1 + 1e-9, 0), (0, 1)])
+    1.1e-09
+    >>> near_tolerance([(0, 0), (1, 0), (0, 1)]) is None
+    True
+    """
+    delaunay = as_delaunay(points)
+    xy, edges = delaunay.points.xy, delaunay.edges
+    with np.errstate(over="ignore"):
+        lengths = np.hypot(*(xy[edges[:, 0]] - xy[edges[:, 1]]).T)
+    if not len(edges) or lengths.min() > NEAR * lengths.max():
+        return None
+    short = lengths <= NEAR * _length_after_jump(edges, lengths, len(xy))[edges].min(axis=1)
+    group = _components(len(xy), edges[short])
+    within = group[edges[:, 0]] == group[edges[:, 1]]
+    widest = np.zeros(len(xy))
+    np.maximum.at(widest, group[edges[short][:, 0]], lengths[short])
+    around = np.full(len(xy), np.inf)
+    for end in (0, 1):
+        np.minimum.at(around, group[edges[~within][:, end]], lengths[~within])
+    low, high = (np.full((len(xy), 2), sign * np.inf) for sign in (1, -1))
+    np.minimum.at(low, group, xy)
+    np.maximum.at(high, group, xy)
+    span = np.hypot(*np.where(widest > 0, (high - low).T, 0.0))
+    fits = (widest > 0) & (widest <= NEAR * around) & (span <= WIDEST * widest)
+    return _rounded_up(float(widest[fits].max())) if fits.any() else None
+
+
+def _length_after_jump(edges: IntArray, lengths: FloatArray, n: int) -> FloatArray:
+    """Return for each row the first length of its edges that is a million times the one before.
+
+    Where there is none it is 0: nothing is near then.
+    """
+    ends, both = edges.T.ravel(), np.tile(lengths, 2)
+    order = np.lexsort((both, ends))
+    ends, both = ends[order], both[order]
+    jumps = (ends[1:] == ends[:-1]) & (both[:-1] <= NEAR * both[1:])
+    after = np.zeros(n)
+    where = np.flatnonzero(jumps)[::-1]  # so that the first one remains
+    after[ends[where]] = both[where + 1]
+    return after
+
+
+def _rounded_up(length: float) -> float:
+    """Return a length with two digits, at least a twentieth above a given one."""
+    digits = 1 - int(np.floor(np.log10(1.05 * length)))
+    return float(f"{np.ceil(1.05 * length * 10.0**digits) / 10.0**digits:.1e}")
 
 
 def _components(n: int, edges: IntArray) -> IntArray:

@@ -16,15 +16,17 @@ import numpy.typing as npt
 
 from crustline.arrays import FloatArray, IntArray, as_edges, as_floats, equal, read_only
 from crustline.certify import Certificate, certify
+from crustline.connection import Connection, connection
 from crustline.curves import Curves, trace
 from crustline.delaunay import Delaunay, as_delaunay, points_and_how
 from crustline.denoise import Denoised, denoise
 from crustline.errors import InputError
 from crustline.interpolant import local_feature_size
 from crustline.medial_axis import MedialAxis, medial_axis
+from crustline.merge import Merged, merge
 from crustline.methods import as_method, connect, name_of
 from crustline.points import Points
-from crustline.scalars import as_flag
+from crustline.scalars import as_flag, as_length
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -50,6 +52,9 @@ class Reconstruction:
         estimated.
     crs : str, optional
         With `fit`, the CRS to fit in, or "auto".
+    merge : float, optional
+        Points within this distance of each other are one: see `crustline.merge`. Rows stay those of
+        the points that were given.
     **parameters
         Passed on to the method, such as ``beta=1.5`` for `beta_skeleton`.
 
@@ -81,6 +86,10 @@ class Reconstruction:
         See `crustline.local_feature_size`.
     certificate : Certificate
         See `certify`.
+    connection : Connection
+        See `crustline.connection`; of the method `connect` only.
+    merged : ndarray of int64, shape (d, 2)
+        A row that was merged, and the row that stands for it; sorted.
 
     Raises
     ------
@@ -105,6 +114,7 @@ class Reconstruction:
         fit: bool = False,
         noise: npt.ArrayLike | None = None,
         crs: str | None = None,
+        merge: float | None = None,
         **parameters: Any,
     ) -> None:
         self.fit = as_flag("fit", fit)
@@ -116,11 +126,25 @@ class Reconstruction:
         self.points: Points = points_and_how(points)[0]
         self._fit: dict[str, Any] = {"noise": _copied(noise), "crs": crs}
         self._given = points if isinstance(points, Delaunay) else self.points
+        self._tolerance = None if merge is None else as_length("merge", merge)
+
+    @cached_property
+    def _merged(self) -> Merged | None:
+        return None if self._tolerance is None else merge(self._given, self._tolerance)
 
     @cached_property
     def delaunay(self) -> Delaunay:
-        """The triangulation."""
-        return as_delaunay(self._given)
+        """The triangulation; points that were merged are repeated ones there."""
+        if self._merged is None:
+            return as_delaunay(self._given)
+        threads, progress = points_and_how(self._given)[1]
+        snapped = self._merged.snapped(self.points)
+        return Delaunay(snapped, threads=threads, progress=progress)
+
+    @property
+    def merged(self) -> IntArray:
+        """A row that was merged, and the row that stands for it, shape (d, 2); sorted."""
+        return np.empty((0, 2), np.int64) if self._merged is None else self._merged.merged
 
     @cached_property
     def denoised(self) -> Denoised | None:
@@ -144,14 +168,34 @@ class Reconstruction:
         """What the method selects, shape (m, 2): i < j in each row, rows sorted."""
         if self.fit:
             return self.curves.edges
+        if "connection" in vars(self):
+            return self.connection.edges
+        if self._merged is None:
+            return self._selected
+        return as_edges(self._merged.stands[self._selected], len(self.points))
+
+    @cached_property
+    def _selected(self) -> IntArray:
+        """The same by the first of the rows that are merged, as the triangulation has them."""
         return as_edges(self.method(self.delaunay, **self.parameters), len(self.points))
+
+    @cached_property
+    def connection(self) -> Connection:
+        """How sure each edge is, and why they are not those of the crust; of `connect` only."""
+        if self.method is not connect or self.fit:
+            raise InputError(
+                f"only connect, without fitting, says how sure it is, and this is a reconstruction "
+                f"by {name_of(self.method)}: leave the rest away"
+            )
+        found = connection(self.delaunay, **self.parameters)
+        return found if self._merged is None else found.renamed(self.points, self._merged.stands)
 
     @cached_property
     def curves(self) -> Curves:
         """The rings and polylines of the edges."""
         if self.denoised is not None:
             return self.denoised.annotated()
-        return trace(self.delaunay, self.edges)
+        return trace(self.delaunay if self._merged is None else self.points, self.edges)
 
     @cached_property
     def medial_axis(self) -> MedialAxis:
@@ -166,7 +210,9 @@ class Reconstruction:
     @cached_property
     def certificate(self) -> Certificate:
         """What is guaranteed about the edges, and where not."""
-        return certify(self._of_vertices, self.edges)
+        # By the rows that the triangulation has, so that merged ones are not missing.
+        edges = self.edges if self._merged is None or self.fit else self._selected
+        return certify(self._of_vertices, edges)
 
     def picture(
         self, path: str | os.PathLike[str], *, show: Sequence[str] = ("points", "crust")
@@ -189,6 +235,7 @@ class Reconstruction:
         if not isinstance(other, Reconstruction):
             return NotImplemented
         same_fit = self.fit == other.fit and equal(self._fit, other._fit)
+        same_fit &= self._tolerance == other._tolerance
         return same_fit and self.__reduce__()[1][:3] == other.__reduce__()[1][:3]
 
     __hash__ = None  # type: ignore[assignment]
@@ -200,7 +247,7 @@ class Reconstruction:
         return self
 
     def __reduce__(self) -> tuple[Any, ...]:
-        how = {"fit": self.fit, **self._fit}
+        how = {"fit": self.fit, "merge": self._tolerance, **self._fit}
         return _rebuild, (self._given, self.method, dict(self.parameters), how)
 
     def __repr__(self) -> str:
@@ -213,9 +260,9 @@ def _rebuild(
     points: Points | Delaunay,
     method: Callable[..., npt.ArrayLike],
     parameters: dict[str, Any],
-    fit: dict[str, Any],
+    how: dict[str, Any],
 ) -> Reconstruction:
-    return Reconstruction(points, method, **fit, **parameters)
+    return Reconstruction(points, method, **how, **parameters)
 
 
 def _copied(noise: npt.ArrayLike | None) -> npt.ArrayLike | None:
@@ -228,7 +275,7 @@ def as_reconstruction(points: npt.ArrayLike | Delaunay | Reconstruction) -> Reco
     return points if isinstance(points, Reconstruction) else Reconstruction(points)
 
 
-def reconstruct(
+def reconstruct(  # noqa: PLR0913 - all but the first have a default
     points: npt.ArrayLike | Delaunay,
     method: Callable[..., npt.ArrayLike] = connect,
     *,
@@ -237,6 +284,7 @@ def reconstruct(
     crs: str | None = None,
     orient: str | None = None,
     start: Any = None,
+    merge: float | None = None,
     **parameters: Any,
 ) -> Curves:
     """Return the curves that the points were sampled from, by a method.
@@ -258,8 +306,12 @@ def reconstruct(
         The direction of the rings: see `Curves.oriented`. By default counter-clockwise.
     start : pair of float, int, or {"west", "east", "south", "north"}, optional
         Where rings, and of their two ends polylines, start: see `Curves.oriented`.
+    merge : float, optional
+        Points within this distance of each other are one: see `crustline.merge`. The curves go
+        through the row that stands for each group; the others are isolated, as repeated rows are.
     **parameters
-        Passed on to the method, such as ``beta=1.5`` for `beta_skeleton`.
+        Passed on to the method, such as ``beta=1.5`` for `beta_skeleton`, or ``closed=True`` for
+        `connect`.
 
     Returns
     -------
@@ -293,7 +345,13 @@ def reconstruct(
     >>> fitted = reconstruct(circle, fit=True)
     >>> len(fitted), bool(fitted[0].closed), list(fitted.points.columns)
     (1, True, ['input_rows', 'uncertainty', 'noise'])
+
+    Points that differ by rounding:
+
+    >>> near = [(0, 0), (1, 1), (1, 0), (0, 1), (1, 1e-12), (1e-12, 1)]
+    >>> [curve.indices.tolist() for curve in reconstruct(near, merge=1e-9)]
+    [[0, 2, 1, 3]]
     """
-    made = Reconstruction(points, method, fit=fit, noise=noise, crs=crs, **parameters)
+    made = Reconstruction(points, method, fit=fit, noise=noise, crs=crs, merge=merge, **parameters)
     oriented = orient is not None or start is not None
     return made.curves.oriented(orient, start=start) if oriented else made.curves

@@ -25,7 +25,7 @@ mod _core {
     #[pymodule_export]
     use crate::arrays::first_not_finite;
     #[pymodule_export]
-    use crate::connect::connect;
+    use crate::connect::{connect, connection};
     #[pymodule_export]
     use crate::delaunay::Delaunay;
     #[pymodule_export]

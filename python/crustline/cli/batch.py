@@ -14,7 +14,8 @@ from typing import Any
 
 import click
 
-from crustline.cli.method import Command, Method, fit_options, method_options
+from crustline.cli.hints import Command
+from crustline.cli.method import Method, fit_options, method_options
 from crustline.cli.orientation import Orientation, orientation_options
 from crustline.cli.output import counted, write_with
 from crustline.cli.progress import progress_bar

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 import click
 from click.core import ParameterSource
 
-from crustline.cli.method import Command, as_method
+from crustline.cli.hints import Command
+from crustline.cli.method import as_method
 from crustline.cli.output import counted
 from crustline.cli.progress import progress_bar
 from crustline.errors import InputError

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from crustline.cli.hints import Command, hint_options
 from crustline.errors import InputError
 from crustline.formats.names import quote_all
 
@@ -17,8 +18,6 @@ if TYPE_CHECKING:
     from crustline.delaunay import Delaunay
     from crustline.points import Points
     from crustline.reconstruction import Reconstruction
-
-Command = Callable[..., None]
 
 
 @dataclass(frozen=True)
@@ -30,6 +29,7 @@ class Method:
     project: str | None = None
     fit: bool = False
     noise: str | None = None
+    merge: float | None = None
 
     @property
     def function(self) -> Callable[..., Any]:
@@ -46,11 +46,12 @@ class Method:
         from crustline.reconstruction import Reconstruction
 
         if not self.fit:
-            return Reconstruction(delaunay, self.function, **self.parameters)
+            return Reconstruction(delaunay, self.function, merge=self.merge, **self.parameters)
         noise = as_noise(self.noise, delaunay.points)
         return Reconstruction(
-            delaunay, METHODS[self.name], fit=True, noise=noise, crs=self.project, **self.parameters
-        )
+            delaunay, METHODS[self.name], fit=True, noise=noise, crs=self.project,
+            merge=self.merge, **self.parameters,
+        )  # fmt: skip
 
 
 def method_options(command: Command) -> Command:
@@ -69,15 +70,21 @@ def method_options(command: Command) -> Command:
         help="Connect the points in this CRS, such as EPSG:25832, or auto, a map about their "
         "middle; what is written stays in the CRS of the input. Needs pyproj.",
     )  # fmt: skip
+    @click.option("--merge", type=float, metavar="TOL",
+                  help="Take points within this distance of each other for one.")  # fmt: skip
+    @hint_options
     @functools.wraps(command)
     def run(
         method: str,
         beta: float | None,
         settings: tuple[str, ...],
         project: str | None,
+        merge: float | None,
+        hints: dict[str, Any],
         **rest: Any,
     ) -> None:
-        command(method=as_method(method, beta, settings, project), **rest)
+        chosen = as_method(method, beta, settings, project, hints)
+        command(method=replace(chosen, merge=merge), **rest)
 
     return run
 
@@ -123,14 +130,18 @@ def _matching(context: click.Context, option: click.Parameter, start: str) -> li
 
 
 def as_method(
-    name: str, beta: float | None, settings: tuple[str, ...], project: str | None
+    name: str,
+    beta: float | None,
+    settings: tuple[str, ...],
+    project: str | None,
+    hints: dict[str, Any] | None = None,
 ) -> Method:
     """Return the method of a name with its parameters, or refuse what it does not have."""
     from crustline.methods import METHODS, check_parameters
 
     if name not in METHODS:
         raise InputError(f"no method is called {name!r}: choose one of {', '.join(METHODS)}")
-    method = Method(name, dict(map(_setting, settings)), project)
+    method = Method(name, dict(map(_setting, settings)) | (hints or {}), project)
     if beta is not None:
         method.parameters["beta"] = beta
     check_parameters(method.function, method.parameters, name, "add -p {}=VALUE")

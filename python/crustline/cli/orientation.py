@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from crustline.cli.method import Command
+from crustline.cli.hints import Command
 from crustline.errors import InputError
 from crustline.orientation import COMPASS, ORIENTATIONS
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import click
 
-from crustline.cli.method import Command
+from crustline.cli.hints import Command
 from crustline.cli.source import format_options
 from crustline.errors import InputError
 from crustline.formats.catalog import able, format_of_target, options_for, suffixes_for

@@ -12,7 +12,8 @@ from crustline.errors import InputError
 from crustline.scalars import as_degrees
 
 LAYERS = (
-    "points", "delaunay", "voronoi", "crust", "medial-axis", "lfs", "certificate", "indices",
+    "points", "delaunay", "voronoi", "crust", "medial-axis", "lfs", "confidence",
+    "certificate", "indices",
 )  # fmt: skip
 
 
@@ -27,9 +28,9 @@ def plot(source: Source, output: Output, show: str, method: Method) -> None:
     """Draw points and what is computed from them.
 
     INPUT is a file of points; - is standard input. Writes a picture: `crust`
-    is the curves that the method finds, `lfs` colors points by their local feature size, `indices`
-    numbers them. With --fit it is the fitted curves, in a band as wide as they are uncertain.
-    Needs matplotlib: pip install 'crustline[plot]'.
+    is the curves that the method finds, `confidence` how sure it is of them, `lfs` colors points by
+    their local feature size, `indices` numbers them. With --fit it is the fitted curves, in a band
+    as wide as they are uncertain. Needs matplotlib: pip install 'crustline[plot]'.
 
     \b
         crustline plot goose.csv -o goose.png --show points,crust,medial-axis

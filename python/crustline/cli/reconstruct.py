@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 @click.option("--by", metavar="COLUMN", help="Connect only points of equal value in a column.")
 @click.option("--edges-from-file", is_flag=True,
               help="Keep the lines that the file holds, and decide their gaps only.")  # fmt: skip
+@click.option("--confidence", is_flag=True,
+              help="Say how sure each edge is, in GeoJSON, and the whole; of connect.")  # fmt: skip
 @method_options
 @fit_options
 def reconstruct(
@@ -42,6 +44,7 @@ def reconstruct(
     orientation: Orientation,
     by: str | None,
     edges_from_file: bool,
+    confidence: bool,
     method: Method,
 ) -> None:
     """Find the curves that points were sampled from.
@@ -58,12 +61,39 @@ def reconstruct(
         if edges_from_file
         else reconstruction(source, method, output.quiet, by)
     ) as made:
+        found = made.connection if confidence or (output.as_json and _is_sure(made)) else None
         counts = _count(made)
-    output.write(orientation.of(made.curves, method.project))
-    output.report(
-        f"{source.name}: {_in_words(counts)}",
-        {"input": source.name, "method": method.name, **counts},
-    )
+    _warn_of_near(source, made)
+    curves = found.curves if confidence and found else made.curves
+    output.write(orientation.of(curves, method.project))
+    summary: dict[str, Any] = {"input": source.name, "method": method.name, **counts}
+    sentence = f"{source.name}: {_in_words(counts)}"
+    if found is not None:
+        summary["connection"] = found.summary()
+        sentence += f", {found.whole:.0%} sure as a whole"
+    output.report(sentence, summary)
+
+
+def _is_sure(made: Reconstruction) -> bool:
+    """Whether the method is the one that says how sure it is."""
+    from crustline.methods import connect
+
+    return made.method is connect and not made.fit
+
+
+def _warn_of_near(source: Source, made: Reconstruction) -> None:
+    """Say what to add where points look like one point that was rounded."""
+    from crustline.merge import near_tolerance
+
+    tolerance = None if len(made.merged) else near_tolerance(made.delaunay)
+    if tolerance is not None:
+        warnings.warn(
+            f"{source.name}: some points are nearer to each other than a millionth of the "
+            f"distance to any other, and break the curve there: add --merge {tolerance:g} to take "
+            "them for one",
+            FormatWarning,
+            stacklevel=2,
+        )
 
 
 @contextmanager
@@ -81,7 +111,7 @@ def reconstruction(
         if by is None:
             yield method.reconstruction(delaunay)
         else:
-            _refuse_fit(method)
+            _refuse_what_groups_lack(method)
             yield Reconstruction(delaunay, _grouped(points, by, method))
 
 
@@ -118,9 +148,13 @@ def _warn_of_degrees(source: Source, points: Points, method: Method) -> None:
         )
 
 
-def _refuse_fit(method: Method) -> None:
+def _refuse_what_groups_lack(method: Method) -> None:
     if method.fit:
         raise InputError("--by and --fit exclude each other: fit each group in a file of its own")
+    if method.merge is not None:
+        raise InputError(
+            "--by and --merge exclude each other: merge each group in a file of its own"
+        )
 
 
 def _grouped(points: Points, by: str, method: Method) -> Callable[[Delaunay], IntArray]:
@@ -139,13 +173,14 @@ def _count(made: Reconstruction) -> dict[str, Any]:
     rings = int(curves.closed.sum())
     counts: dict[str, Any] = {
         "points": len(made.points),
-        "duplicates": len(made.delaunay.duplicates),
+        "duplicates": len(made.delaunay.duplicates) - len(made.merged),
+        "merged": len(made.merged),
         "rings": rings,
         "open_curves": len(curves) - rings,
         "branches": len(curves.branches),
     }
     if made.denoised is None:
-        return counts | {"isolated": len(curves.isolated)}
+        return counts | {"isolated": len(curves.isolated) - len(made.merged)}
     known = made.denoised.noise[np.isfinite(made.denoised.noise)]
     return counts | {
         "vertices": len(made.denoised.curves.points),
@@ -157,11 +192,13 @@ def _count(made: Reconstruction) -> dict[str, Any]:
 
 def _in_words(counts: dict[str, Any]) -> str:
     words = {
-        "points": "point", "duplicates": "duplicate", "rings": "ring", "open_curves": "open curve",
-        "branches": "branch", "isolated": "isolated point", "vertices": "fitted vertex",
+        "points": "point", "duplicates": "duplicate", "merged": "merged row",
+        "rings": "ring", "open_curves": "open curve", "branches": "branch",
+        "isolated": "isolated point", "vertices": "fitted vertex",
         "outliers": "outlier", "unchanged_curves": "unchanged curve",
     }  # fmt: skip
-    said = [counted(counts[key], word) for key, word in words.items() if key in counts]
+    said = [counted(counts[key], word) for key, word in words.items()
+            if key in counts and (counts[key] or key != "merged")]  # fmt: skip
     if counts.get("noise"):
         said.append(f"noise {counts['noise']:.3g}")
     return ", ".join(said)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 import numpy as np
 
-from crustline.cli.method import Command
+from crustline.cli.hints import Command
 from crustline.formats.catalog import able, options_for
 from crustline.formats.format import Format, Option
 

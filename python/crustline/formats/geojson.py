@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from crustline.arrays import FloatArray
-from crustline.curves import Curves
+from crustline.curves import Curves, Feature
 from crustline.errors import FormatError
 from crustline.formats.attributes import attributes_of, coordinates_with_height
 from crustline.formats.crs import geojson_member
@@ -38,7 +38,7 @@ _DEPTHS = {
 _LINES = ("LineString", "MultiLineString", "Polygon", "MultiPolygon")
 _TYPES = (*_DEPTHS, "GeometryCollection", "Feature", "FeatureCollection")
 _KINDS = {"polygon": "Polygon", "line": "LineString", "points": "MultiPoint"}
-_RESERVED = ("curve", "closed", "rows", "id")
+_RESERVED = ("curve", "closed", "rows", "id", "confidence", "least_sure")
 
 
 @dataclass
@@ -247,10 +247,25 @@ def _features_of(curves: Curves, polygons: bool) -> Iterator[dict[str, Any]]:
         lines = [coordinates_with_height(curves, run).tolist() for run in feature.runs]
         rows = feature.rows
         properties = {"curve": feature.number, "closed": feature.closed, "rows": rows.tolist()}
+        properties |= _confidence(curves, feature)
         properties |= {name: as_json(name, values[rows]) for name, values in columns.items()}
         coordinates = lines if feature.kind == "polygon" else lines[0]
         geometry = {"type": _KINDS[feature.kind], "coordinates": coordinates}
         yield {"type": "Feature", "properties": properties, "geometry": geometry}
+
+
+def _confidence(curves: Curves, feature: Feature) -> dict[str, Any]:
+    """Return how sure each edge is, in order along the parts, and the least of it, if known."""
+    if curves.confidence is None or feature.kind == "points":
+        return {}
+    keys = [len(curves.points), 1]
+    known = curves.edges @ keys
+    values = []
+    for part in feature.parts:
+        ends = np.stack([part, np.roll(part, -1)], axis=1)[: len(part) - (not feature.closed)]
+        values.append(curves.confidence[np.searchsorted(known, np.sort(ends, axis=1) @ keys)])
+    sure = np.round(np.concatenate(values), 4)
+    return {"confidence": sure.tolist(), "least_sure": float(sure.min())}
 
 
 def _sniff(head: bytes) -> bool:

@@ -10,7 +10,7 @@ from crustline.delaunay import Delaunay, as_delaunay
 from crustline.methods.hints import as_hints
 
 
-def connect(
+def connect(  # noqa: PLR0913 - each is something that a user may know
     points: ArrayLike | Delaunay,
     *,
     keep: ArrayLike | None = None,
@@ -18,6 +18,10 @@ def connect(
     ends: ArrayLike | None = None,
     max_edge: float | str | None = None,
     min_points: int | None = None,
+    every_point: bool = False,
+    closed: bool = False,
+    components: int | None = None,
+    junctions: bool = False,
 ) -> IntArray:
     """Return the edges of the curves that points suggest, at most two a point.
 
@@ -37,17 +41,27 @@ def connect(
     forbid : array_like of int, shape (m, 2), optional
         Edges that are not.
     ends : array_like of int, shape (k,), optional
-        Rows of points at which a curve ends: each has one edge at most.
+        Rows of points at which a curve ends: each has one edge.
     max_edge : float or str, optional
         The length of the longest edge, in the unit of the points; or, such as "3x", in spacings:
         the greater of the distances between neighbors that are usual around its two ends.
     min_points : int, optional
         Curves of fewer points than this are left out.
+    every_point : bool, default False
+        Whether every point has an edge: none is an outlier.
+    closed : bool, default False
+        Whether all curves are rings.
+    components : int, optional
+        The number of curves, isolated points not counted.
+    junctions : bool, default False
+        Whether ends that go straight on to a curve are joined to it: T, X and Y. Up to four edges
+        may meet at a point then.
 
     Returns
     -------
     edges : ndarray of int64, shape (m, 2)
-        Rows of `points`, i < j in each row, rows sorted. No point has more than two.
+        Rows of `points`, i < j in each row, rows sorted. No point has more than two, but with
+        `junctions`.
 
     Raises
     ------
@@ -70,6 +84,14 @@ def connect(
     the coordinates exact. Where edges are equally good and not all can be in, none is: nothing in
     the points tells them apart. O(n log n) time.
 
+    Hints come first, then the theorem, then the costs. What `every_point`, `ends` and `closed` ask
+    for and the messages did not reach is reached by the cheapest alternating paths: edges come in
+    and go out in turn, weighed by the messages' beliefs. `components` takes the cheapest change
+    that joins or splits curves, again and again: an edge between ends, two edges of two curves for
+    two others, a curve dropped, an edge cut. Each change is the cheapest of its kind; that their
+    sum is the least of all is not proven. These changes break ties by coordinates, so that with
+    these hints a turn of the points may choose another of several equally good answers.
+
     References
     ----------
     .. [1] J. Pearl, "Probabilistic Reasoning in Intelligent Systems", Morgan Kaufmann (1988).
@@ -90,17 +112,16 @@ def connect(
     >>> connect(line, keep=[(4, 5)]).tolist()
     [[0, 1], [1, 2], [2, 3], [3, 4], [4, 5]]
     """
-    given = (keep, forbid, ends, max_edge, min_points)
     delaunay = as_delaunay(points)
-    if all(each is None for each in given):
-        return delaunay.run(_core.connect, None)
-    hints = as_hints(
-        delaunay,
-        keep=keep,
-        forbid=forbid,
-        ends=ends,
-        max_edge=max_edge,
-        min_points=min_points,
-        every_point=False,
-    )
-    return delaunay.run(_core.connect, hints)
+    told = {
+        "keep": keep,
+        "forbid": forbid,
+        "ends": ends,
+        "max_edge": max_edge,
+        "min_points": min_points,
+        "components": components,
+        "every_point": every_point,
+        "closed": closed,
+        "junctions": junctions,
+    }
+    return delaunay.run(_core.connect, as_hints(delaunay, told))

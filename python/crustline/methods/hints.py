@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,7 +12,7 @@ from numpy.typing import ArrayLike
 from crustline.arrays import IntArray, as_edges, as_rows
 from crustline.delaunay import Delaunay
 from crustline.errors import InputError, shown
-from crustline.scalars import as_flag, as_positive, as_whole
+from crustline.scalars import MOST_POINTS, as_flag, as_positive, as_whole
 
 __all__ = ["Hints", "as_hints"]
 
@@ -25,30 +26,35 @@ class Hints:
     ends: IntArray
     longest: float | None
     in_spacings: bool
-    every_point: bool
     fewest: int
+    components: int | None
+    every_point: bool
+    closed: bool
+    junctions: bool
 
 
-def as_hints(
-    delaunay: Delaunay,
-    *,
-    keep: ArrayLike | None,
-    forbid: ArrayLike | None,
-    ends: ArrayLike | None,
-    max_edge: float | str | None,
-    min_points: int | None,
-    every_point: bool,
-) -> Hints:
-    """Return hints that fit the points and each other; an `InputError` names what does not."""
-    longest, in_spacings = _longest(max_edge)
+_FLAGS = ("every_point", "closed", "junctions")
+
+
+def as_hints(delaunay: Delaunay, told: Mapping[str, Any]) -> Hints | None:
+    """Return what `connect` was told by name, if it fits the points and itself; None for nothing.
+
+    An `InputError` names what does not fit, or contradicts each other.
+    """
+    flags = {name: as_flag(name, told.get(name, False)) for name in _FLAGS}
+    given = {name: value for name, value in told.items() if value is not None and name not in flags}
+    if not given and not any(flags.values()):
+        return None
+    longest, in_spacings = _longest(given.get("max_edge"))
     hints = Hints(
-        _edges("keep", keep, delaunay),
-        _edges("forbid", forbid, delaunay),
-        _points("ends", ends, delaunay),
+        _edges("keep", given.get("keep"), delaunay),
+        _edges("forbid", given.get("forbid"), delaunay),
+        _points("ends", given.get("ends"), delaunay),
         longest,
         in_spacings,
-        as_flag("every_point", every_point),
-        0 if min_points is None else as_whole("min_points", min_points, 1),
+        as_whole("min_points", given.get("min_points", 1), 1, MOST_POINTS),
+        as_whole("components", given["components"], 0) if "components" in given else None,
+        **flags,
     )
     _refuse_contradictions(hints, delaunay.points.xy)
     return hints
@@ -97,7 +103,8 @@ def _named(name: str, door: Any, given: object, n: int) -> IntArray:
     try:
         made: IntArray = door(given, n)
     except InputError as error:
-        raise InputError(f"{name}{str(error)[str(error).index(':') :]}") from None
+        said = str(error).removeprefix("edges: ").removeprefix("rows: ")
+        raise InputError(f"{name}: {said}") from None
     return made
 
 
@@ -118,8 +125,22 @@ def _refuse_contradictions(hints: Hints, xy: np.ndarray) -> None:
         raise InputError(
             f"every_point and min_points={hints.fewest} contradict each other: pass one of them"
         )
+    if hints.closed and len(hints.ends):
+        raise InputError(
+            f"closed and ends contradict each other: a ring has no end at row {hints.ends[0]}"
+        )
+    _refuse_many(hints, len(np.unique(xy, axis=0)) if hints.components else 0)
     if hints.longest is not None and not hints.in_spacings:
         _refuse_long(hints.keep, hints.longest, xy)
+
+
+def _refuse_many(hints: Hints, points: int) -> None:
+    least = 3 if hints.closed else 2
+    if hints.components and hints.components * least > points:
+        raise InputError(
+            f"components={hints.components}: {points} points are too few for so many "
+            f"{'rings' if hints.closed else 'curves'}: pass {points // least} at most"
+        )
 
 
 def _shared(one: IntArray, other: IntArray, n: int) -> list[int] | None:

@@ -11,6 +11,7 @@ References
 
 from crustline.plot.axes import BLACK, BLUE, GRAY, GREEN, ORANGE, PURPLE, SKY, VERMILLION
 from crustline.plot.certificate import plot_certificate
+from crustline.plot.connection import plot_connection
 from crustline.plot.curves import plot_curves, plot_edges
 from crustline.plot.delaunay import plot_delaunay, plot_voronoi
 from crustline.plot.denoised import plot_denoised
@@ -30,6 +31,7 @@ __all__ = [
     "VERMILLION",
     "picture",
     "plot_certificate",
+    "plot_connection",
     "plot_curves",
     "plot_delaunay",
     "plot_denoised",

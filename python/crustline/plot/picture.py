@@ -14,6 +14,7 @@ from crustline.plot.axes import (
     axes,
 )
 from crustline.plot.certificate import plot_certificate
+from crustline.plot.connection import plot_connection
 from crustline.plot.curves import plot_curves
 from crustline.plot.delaunay import plot_delaunay, plot_voronoi
 from crustline.plot.denoised import plot_denoised
@@ -36,6 +37,7 @@ LAYERS: dict[str, Callable[[Reconstruction, Axes], Axes]] = {
         if made.denoised is None
         else plot_denoised(made.denoised, ax, points=False)
     ),
+    "confidence": lambda made, ax: plot_connection(made.connection, ax, points=False),
     "certificate": lambda made, ax: plot_certificate(made.certificate, ax, points=False),
     "lfs": lambda made, ax: plot_local_feature_size(made.vertices, made.local_feature_size, ax),
     "points": lambda made, ax: plot_points(made.points, ax),
@@ -60,7 +62,8 @@ def picture(
         Where to write; the suffix .png, .svg or .pdf decides the format.
     show : sequence of str
         What to draw, any of "points", "delaunay", "voronoi", "crust" (the curves that the method
-        finds), "medial-axis", "lfs", "certificate", "indices", in any order.
+        finds), "confidence" (how sure `connect` is of each edge), "medial-axis", "lfs",
+        "certificate", "indices", in any order.
 
     Raises
     ------

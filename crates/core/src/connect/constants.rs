@@ -87,6 +87,16 @@ pub const CONSTANTS: Constants = Constants {
 pub const HOPELESS: f32 = 2.0;
 /// The price of what is not to be: more than all that the points could say against it at one place.
 pub const FORCED: f32 = 64.0;
+/// What an end costs where all curves are rings: more than any one edge, so that few are left to be mended.
+pub const CLOSED: f32 = 6.0;
+/// How many times as much an isolated point costs there: as it cannot end nearby, nothing else keeps a curve from being left out.
+pub const CLOSED_ALONE: f32 = 3.0;
+/// What mending pays for a point that it leaves out.
+pub const DROPPED: f32 = 3.6;
+/// How many points mending looks at around one that has too few edges.
+pub const MOST_MENDED: usize = 1 << 14;
+/// What a third or fourth edge at a point costs: less than the end that it saves, if it goes straight on.
+pub const JUNCTION: f32 = 0.3;
 /// At a vertex of more edges than this pairs are made among the shortest only, so that hubs stay cheap.
 pub const MOST_PAIRED: usize = 14;
 /// Rings of neighbors whose medians smooth the local spacing: enough to vote down small clusters of outliers.

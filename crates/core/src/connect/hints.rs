@@ -1,10 +1,11 @@
 //! What the caller knows of the curves: edges that are in or out, ends, the longest edge, that no point is left out.
 
 use super::candidates::{Candidates, by_vertex};
-use super::constants::FORCED;
+use super::constants::{CLOSED, CLOSED_ALONE, FORCED};
 use super::costs::Costs;
 use super::geometry::Spacing;
-use crate::delaunay::{Delaunay, NONE};
+use crate::adjacency::vertices_of_rows;
+use crate::delaunay::Delaunay;
 use crate::edges::Edges;
 
 /// Hints, by input rows; the default is none. Repeated points are named by their first row.
@@ -22,6 +23,12 @@ pub struct Hints {
     pub every_point: bool,
     /// Curves of fewer points than this are left out.
     pub fewest: usize,
+    /// Are all curves rings?
+    pub closed: bool,
+    /// How many curves there are.
+    pub components: Option<usize>,
+    /// May up to four edges meet at a point?
+    pub junctions: bool,
 }
 
 /// How long an edge may be.
@@ -38,7 +45,8 @@ impl Hints {
     #[must_use]
     pub fn is_none(&self) -> bool {
         let listed = [self.keep.len(), self.forbid.len(), self.ends.len(), self.fewest];
-        listed == [0; 4] && self.longest.is_none() && !self.every_point
+        let told = self.every_point || self.closed || self.components.is_some();
+        listed == [0; 4] && self.longest.is_none() && !told
     }
 }
 
@@ -53,8 +61,14 @@ pub struct Known {
     longest: Option<Longest>,
     /// Is no point left out?
     pub every_point: bool,
+    /// Are all curves rings?
+    pub closed: bool,
+    /// Is the number of curves known?
+    counted: bool,
     /// The vertex of each row.
     vertices: Vec<u32>,
+    /// The row of each vertex.
+    rows: Vec<u32>,
 }
 
 impl Known {
@@ -64,10 +78,7 @@ impl Known {
         if hints.is_none() {
             return Self::default();
         }
-        let mut vertices = vec![NONE; delaunay.input_len()];
-        for (v, &row) in delaunay.rows().iter().enumerate() {
-            vertices[row as usize] = v as u32;
-        }
+        let vertices = vertices_of_rows(delaunay);
         let vertex = |row: u32| vertices[row as usize];
         let both = |edges: &Edges| {
             let pairs = edges.iter().map(|edge| edge.map(vertex));
@@ -87,7 +98,10 @@ impl Known {
             ends,
             longest,
             every_point: hints.every_point,
+            closed: hints.closed,
+            counted: hints.components.is_some(),
             vertices,
+            rows: delaunay.rows().to_vec(),
         }
     }
 
@@ -126,6 +140,12 @@ impl Known {
         })
     }
 
+    /// The row of a vertex, for messages.
+    #[must_use]
+    pub fn row(&self, v: usize) -> u32 {
+        self.rows[v]
+    }
+
     /// Does a curve end at `v`?
     #[must_use]
     pub fn ends_at(&self, v: usize) -> bool {
@@ -135,7 +155,7 @@ impl Known {
     /// Do points have to be joined however much that costs?
     #[must_use]
     pub fn is_costly(&self) -> bool {
-        self.every_point || !self.ends.is_empty()
+        self.every_point || self.closed || self.counted || !self.ends.is_empty()
     }
 
     /// How many edges `v` may have.
@@ -144,11 +164,27 @@ impl Known {
         if self.ends_at(v) { 1 } else { 2 }
     }
 
-    /// Must `v` have an edge?
-    #[allow(dead_code)]
+    /// May `v` have so many edges?
     #[must_use]
-    pub fn joins(&self, v: usize) -> bool {
-        self.every_point || self.ends_at(v)
+    pub fn fits(&self, v: usize, degree: u8) -> bool {
+        match degree {
+            0 => !self.every_point && !self.ends_at(v),
+            1 => !self.closed,
+            _ => degree <= self.most(v),
+        }
+    }
+
+    /// Do edges, of rows, leave no vertex with too few?
+    #[must_use]
+    pub fn is_met(&self, delaunay: &Delaunay, edges: &Edges) -> bool {
+        if self.vertices.is_empty() {
+            return true;
+        }
+        let mut degrees = vec![0u8; delaunay.points().len()];
+        for &row in edges.as_flattened() {
+            degrees[self.vertices[row as usize] as usize] += 1;
+        }
+        (0..degrees.len()).all(|v| degrees[v] >= 2 || self.fits(v, degrees[v]))
     }
 
     /// Put prices on what is known that nothing else outweighs.
@@ -157,6 +193,10 @@ impl Known {
             for (cost, _) in costs.edges.iter_mut().zip(&candidates.kept).filter(|each| *each.1) {
                 *cost -= 4.0 * FORCED;
             }
+        }
+        if self.closed {
+            costs.ends = by_vertex(candidates.vertices(), |_| CLOSED);
+            costs.alone = by_vertex(candidates.vertices(), |v| costs.alone[v] * CLOSED_ALONE);
         }
         for &v in &self.ends {
             let v = v as usize;

@@ -4,16 +4,25 @@
 //! found by message passing. Two rounds: the second judges turns, steps and lone points by what the first found nearby.
 
 mod approximation;
+mod calibrate;
 mod candidates;
+mod connection;
 mod constants;
 mod costs;
+mod count;
 mod decode;
+mod dimension;
+mod features;
+mod found;
 mod gaps;
 mod geometry;
 mod guard;
 mod hints;
+mod junctions;
+mod mend;
 mod messages;
 mod prune;
+mod reasons;
 mod rings;
 mod roughness;
 mod selection;
@@ -23,15 +32,11 @@ use crate::edges::{Edges, rows, sort};
 use crate::error::Result;
 use crate::progress::{Progress, Stage};
 use candidates::Candidates;
-use constants::HOPELESS;
+pub use connection::Connection;
 pub use constants::{CONSTANTS, Constants};
-use costs::{Costs, first_edge_costs};
-use decode::decode;
-use geometry::{Spacing, Turns};
-use hints::Known;
+use found::{Found, converge};
 pub use hints::{Hints, Longest};
-use messages::Factors;
-use roughness::Roughness;
+pub use reasons::Reason;
 use selection::Selection;
 
 /// The edges of the curves that the points suggest, at most two a point, given what is known of them.
@@ -40,64 +45,59 @@ use selection::Selection;
 /// threads, and after turns by 90°, reflections and exact translations. O(n log n).
 ///
 /// # Errors
-/// Too many points, or a cancelled `progress`.
+/// Too many points, hints that contradict each other, or a cancelled `progress`.
 pub fn connect(
     delaunay: &Delaunay,
     constants: &Constants,
     hints: &Hints,
     progress: &Progress,
 ) -> Result<Edges> {
-    progress.enter(Stage::Select, delaunay.points().len())?;
-    let known = Known::new(hints, delaunay);
-    let mut candidates = Candidates::new(delaunay, &known.keep, progress)?;
-    let mut spacing = Spacing::new(delaunay, &candidates, constants);
-    progress.advance(0)?;
-    let hope = hope(&candidates, &spacing, &known, constants);
-    candidates.retain(&mut spacing.lengths, &hope);
-    for &end in &known.ends {
-        candidates.paired[end as usize] = 0;
-    }
-    let turns = Turns::new(delaunay, &candidates);
-    let mut sent = vec![0.0; candidates.ends.len()];
-    let mut round = |rough: &Roughness| {
-        let mut costs = Costs::new(&candidates, &spacing, rough, constants);
-        known.price(&candidates, &mut costs);
-        let factors =
-            Factors { candidates: &candidates, spacing: &spacing, turns: &turns, costs: &costs };
-        factors.converge(&mut sent, progress)?;
-        let selection = decode(&candidates, &factors.beliefs(&sent), |v| known.most(v));
-        Ok((costs, selection))
-    };
-    let (_, first) = round(&Roughness::default())?;
-    let rough = Roughness::new(&candidates, &spacing, &turns, &first, constants);
-    let (costs, mut selection) = round(&rough)?;
-    let factors =
-        Factors { candidates: &candidates, spacing: &spacing, turns: &turns, costs: &costs };
-    if !known.every_point {
-        prune::prune(&factors, constants, &mut selection);
-    }
-    prune::drop_small(&factors, hints.fewest, &mut selection);
-    let edges = edges(delaunay, &candidates, &selection);
-    let may_take = |ring: &[u32]| known.admits(&spacing, ring);
-    guard::guard(delaunay, edges, may_take, progress)
+    Ok(find(delaunay, constants, hints, progress)?.1)
 }
 
-/// Which half-edges are worth a look, and allowed.
-fn hope(
-    candidates: &Candidates,
-    spacing: &Spacing<'_>,
-    known: &Known,
+/// The same edges, how sure each is, and why they are not those of the crust.
+///
+/// # Errors
+/// As for `connect`.
+pub fn connection(
+    delaunay: &Delaunay,
     constants: &Constants,
-) -> Vec<bool> {
-    let costs = first_edge_costs(candidates, spacing, constants);
-    let most = if known.is_costly() { f32::INFINITY } else { HOPELESS };
-    candidates.map(false, |v, own| {
-        for ((own, e), &end) in own.iter_mut().zip(candidates.from(v)).zip(candidates.neighbors(v))
-        {
-            let allowed = costs[e] <= most && known.allows(spacing, v, end);
-            *own = allowed || candidates.is_kept(e);
-        }
-    })
+    hints: &Hints,
+    progress: &Progress,
+) -> Result<Connection> {
+    let (found, edges) = find(delaunay, constants, hints, progress)?;
+    Connection::new(delaunay, &found, edges, progress)
+}
+
+fn find<'a>(
+    delaunay: &'a Delaunay,
+    constants: &Constants,
+    hints: &Hints,
+    progress: &Progress,
+) -> Result<(Found<'a>, Edges)> {
+    progress.enter(Stage::Select, delaunay.points().len())?;
+    let mut found = converge(delaunay, constants, hints, progress)?;
+    let mut selection = std::mem::take(&mut found.selection);
+    if !found.known.every_point {
+        prune::prune(&found.factors(), constants, &mut selection);
+    }
+    mend::mend(&found, &mut selection)?;
+    if let Some(count) = hints.components {
+        count::reach(&found, count, &mut selection)?;
+    }
+    prune::drop_small(&found.factors(), hints.fewest, &mut selection)?;
+    if hints.junctions {
+        junctions::join(&found, &mut selection);
+    }
+    found.selection = selection;
+    let edges = edges(delaunay, &found.candidates, &found.selection);
+    if hints.components.is_some() {
+        return Ok((found, edges));
+    }
+    let may_take = |ring: &[u32]| found.known.admits(&found.spacing, ring);
+    let guarded = guard::guard(delaunay, edges.clone(), may_take, progress)?;
+    let edges = if found.known.is_met(delaunay, &guarded) { guarded } else { edges };
+    Ok((found, edges))
 }
 
 fn edges(delaunay: &Delaunay, candidates: &Candidates, selection: &Selection) -> Edges {

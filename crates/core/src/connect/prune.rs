@@ -4,6 +4,7 @@ use super::constants::{Constants, FEWEST, PRUNE_FROM, SMALL};
 use super::messages::Factors;
 use super::rings::median;
 use super::selection::Selection;
+use crate::error::{Error, Result};
 
 /// Drop components that look like outliers in a row, if there are outliers at all.
 pub fn prune(factors: &Factors<'_>, constants: &Constants, selection: &mut Selection) {
@@ -28,16 +29,28 @@ pub fn prune(factors: &Factors<'_>, constants: &Constants, selection: &mut Selec
 }
 
 /// Drop the components of fewer vertices than this.
-pub fn drop_small(factors: &Factors<'_>, fewest: usize, selection: &mut Selection) {
-    if fewest > 2 {
-        for component in components(factors, selection).iter().filter(|own| own.len() < fewest) {
-            drop_edges(factors, selection, component);
-        }
+///
+/// # Errors
+/// One of them has an edge to keep.
+pub fn drop_small(factors: &Factors<'_>, fewest: usize, selection: &mut Selection) -> Result<()> {
+    if fewest <= 2 {
+        return Ok(());
     }
+    for component in components(factors, selection).iter().filter(|own| own.len() < fewest) {
+        if is_kept(factors, component) {
+            let message = format!(
+                "keep and min_points={fewest} contradict each other: a curve with an edge to keep has {} points",
+                component.len()
+            );
+            return Err(Error::Argument { message });
+        }
+        drop_edges(factors, selection, component);
+    }
+    Ok(())
 }
 
 /// The components that have edges, each as its vertices.
-fn components(factors: &Factors<'_>, selection: &Selection) -> Vec<Vec<usize>> {
+pub fn components(factors: &Factors<'_>, selection: &Selection) -> Vec<Vec<usize>> {
     let mut seen = vec![false; factors.candidates.vertices()];
     let mut components = Vec::new();
     for v in 0..seen.len() {
@@ -71,7 +84,7 @@ fn component(
 }
 
 /// Has a component an edge to keep?
-fn is_kept(factors: &Factors<'_>, component: &[usize]) -> bool {
+pub fn is_kept(factors: &Factors<'_>, component: &[usize]) -> bool {
     let candidates = factors.candidates;
     component.iter().any(|&v| candidates.from(v).any(|e| candidates.is_kept(e)))
 }
@@ -107,7 +120,8 @@ fn vertex_cost(factors: &Factors<'_>, selection: &Selection, v: usize) -> f32 {
     costs.pair(v, turns.of(v, pair), lengths)
 }
 
-fn drop_edges(factors: &Factors<'_>, selection: &mut Selection, component: &[usize]) {
+/// Take all edges of a component out.
+pub fn drop_edges(factors: &Factors<'_>, selection: &mut Selection, component: &[usize]) {
     for &v in component {
         for e in factors.candidates.from(v) {
             selection.set(factors.candidates, e, false);
