@@ -13,7 +13,7 @@ LOCK := requirements/ci.txt
 PINNED := 3.11 linux x86_64
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo test test-all test-rust test-python test-busy lint types audit lock format accuracy bench bench-quick bench-instructions fuzz fuzz-readers man figures experiment simulate wheel clean editor page test-editor
+.PHONY: help build demo test test-all test-rust test-python test-busy lint types audit lock format accuracy bench bench-quick bench-instructions fuzz fuzz-readers mutants soak man figures experiment simulate wheel clean editor page test-editor
 
 help: ## Show this list.
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-20s %s\n", $$1, $$2}'
@@ -95,12 +95,26 @@ bench-instructions: ## Count instructions with callgrind, and bytes a point, and
 COVERAGE := -Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 -Cllvm-args=-sanitizer-coverage-inline-8bit-counters \
 	-Cllvm-args=-sanitizer-coverage-pc-table -Ccodegen-units=1 --cfg fuzzing
 
-fuzz: build ## Call public functions COUNT times (default 100,000) with arguments of every kind, and fuzz the core for a minute.
+TARGETS := predicates delaunay tracing connecting certifying axis tiles
+
+fuzz: build ## Call public functions COUNT times (default 100,000) with arguments of every kind, and fuzz the core for a minute a target.
 	$(BIN)/python tests/fuzz/calls.py --count $(or $(COUNT),100000) --seed $(or $(SEED),1)
-	cd crates/core/fuzz && RUSTFLAGS="$(COVERAGE)" cargo run --release --target "$$(rustc -vV | sed -n 's/host: //p')" -- -max_total_time=60 -max_len=512
+	cd crates/core/fuzz && for target in $(TARGETS); do \
+		RUSTFLAGS="$(COVERAGE)" cargo run --release --target "$$(rustc -vV | sed -n 's/host: //p')" --bin $$target -- \
+		-max_total_time=$(or $(SECONDS_EACH),60) -max_len=512 -artifact_prefix=corpus/$$target/ corpus/$$target || exit 1; \
+	done
 
 man: build ## Write the manual pages of the command into man/.
 	$(BIN)/python -m crustline.cli.manual man
+
+mutants: ## Change the code that decides, one place after the other, and see that a test fails (hours; SHARD=1/40 for a part).
+	@command -v cargo-mutants >/dev/null || cargo install --locked cargo-mutants
+	cargo mutants --package crustline-core --jobs 1 $(if $(SHARD),--shard $(SHARD)) \
+		--file 'crates/core/src/exact/*.rs' --file 'crates/core/src/methods/*.rs' --file crates/core/src/trace.rs \
+		-- --lib --test fuzz_corpus --test arbitrary_coordinates
+
+soak: build ## Call the core CALLS times (default a million) on sets of many sizes in one process, and see that memory stays flat.
+	$(BIN)/python -m benchmarks.soak --calls $(or $(CALLS),1000000)
 
 fuzz-readers: build ## Mutate files and read them, COUNT of each format (default 50,000).
 	$(BIN)/python tests/fuzz/readers.py --count $(or $(COUNT),50000) --seed $(or $(SEED),1)

@@ -187,6 +187,42 @@ def test_memory_that_is_not_there_is_an_error_and_not_the_end_of_the_process(roo
         assert all(line.endswith(" done") for line in told)
 
 
+# The skeleton of a circle's points for β < 1 is quadratic; how large is not known before.
+GROWING = """
+import resource
+import numpy as np
+import crustline as cl
+angles = np.arange(20_000) * 2 * np.pi / 20_000
+circle = cl.Delaunay(np.column_stack([np.cos(angles), np.sin(angles)]), threads=1)
+lattice = cl.Delaunay(np.argwhere(np.ones((100, 100))), threads=1)
+calls = {
+    "beta_skeleton": lambda: cl.beta_skeleton(circle, 0.5),
+    "alpha_shape": lambda: cl.alpha_shape(lattice, 1e6),
+    "crust": lambda: cl.crust(circle),
+}
+for delaunay in (circle, lattice):
+    cl.one_step_crust(delaunay)
+size = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (size + (64 << 20), -1))
+for name, call in calls.items():
+    try:
+        print(name, len(call()))
+    except MemoryError as error:
+        print(name, error)
+"""
+
+
+def test_results_that_outgrow_memory_are_an_error_and_not_the_end_of_the_process() -> None:
+    if not os.path.exists("/proc/self/statm"):
+        pytest.skip("memory is measured in /proc")
+    done = run(GROWING)
+    assert done.returncode == 0, done.stderr
+    beta, alpha, crust = done.stdout.splitlines()
+    assert "MB of memory are needed" in beta
+    assert alpha == "alpha_shape 396"
+    assert crust == "crust 20000"
+
+
 # Eight of each at once, on sets of many sizes; every answer is that of a call by itself.
 CROWD = """
 import concurrent.futures, multiprocessing, sys

@@ -7,8 +7,9 @@ use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, rows, select, sort};
 use crate::error::Result;
 use crate::exact::predicates::in_circle;
+use crate::memory;
+use crate::parts::{GRAIN, in_parts, sort_by};
 use crate::progress::Progress;
-use rayon::prelude::*;
 
 /// The edges of the closed Delaunay graph that `keep` keeps, as rows.
 ///
@@ -20,13 +21,16 @@ pub fn select_closed(
     keep: impl Fn(Edge) -> bool + Sync,
 ) -> Result<Edges> {
     let edges = select(delaunay, progress, || (), |(), edge| keep(edge))?;
-    let tied = diagonals(delaunay).into_par_iter().filter(|&edge| keep(edge));
-    let tied: Edges = tied.map(|edge| rows(delaunay, edge.p, edge.q)).collect();
-    progress.advance(0)?;
-    if tied.is_empty() {
+    let tied = diagonals(delaunay, progress)?;
+    let mut parts = in_parts(tied.len(), GRAIN, &progress.quiet(), |range| {
+        let kept = tied[range].iter().filter(|&&edge| keep(edge));
+        kept.map(|edge| rows(delaunay, edge.p, edge.q)).collect::<Edges>()
+    })?;
+    if parts.iter().all(Vec::is_empty) {
         return Ok(edges);
     }
-    let mut closed = sort(&[edges, tied], delaunay.input_len());
+    parts.push(edges);
+    let mut closed = sort(&parts, delaunay.input_len());
     closed.dedup();
     Ok(closed)
 }
@@ -36,17 +40,32 @@ pub fn select_closed(
 ///
 /// The apexes of such an edge are any two of the other points: all see it under the same angle, or
 /// 180° less that. The time and space is quadratic in the number of points on one circle.
-#[must_use]
-pub fn diagonals(delaunay: &Delaunay) -> Vec<Edge> {
-    let from = |p| {
-        let faces = delaunay.edges_from(p).filter_map(|edge| face(delaunay, edge));
-        faces.flat_map(|ring| diagonals_of(&ring))
-    };
-    let mut edges: Vec<Edge> =
-        (0..delaunay.points().len() as u32).into_par_iter().flat_map_iter(from).collect();
-    edges.sort_unstable_by_key(|edge| (edge.p, edge.q));
-    edges
+///
+/// # Errors
+/// Too little memory for them, or a cancelled `progress`.
+pub fn diagonals(delaunay: &Delaunay, progress: &Progress) -> Result<Vec<Edge>> {
+    let from = |p| delaunay.edges_from(p).filter_map(|edge| face(delaunay, edge));
+    let rings = in_parts(delaunay.points().len(), GRAIN, &progress.quiet(), |vertices| {
+        vertices.flat_map(|p| from(p as u32)).collect::<Vec<_>>()
+    })?
+    .concat();
+    let count = rings.iter().map(|ring| ring.len() * (ring.len() - 3) / 2).sum();
+    memory::check(count, BYTES)?;
+    let mut edges = Vec::with_capacity(count);
+    for (number, ring) in rings.iter().enumerate() {
+        for i in 0..ring.len() - 2 {
+            edges.extend(diagonals_from(ring, i));
+            if i > 0 || number % GRAIN == 0 {
+                progress.advance(0)?;
+            }
+        }
+    }
+    sort_by(&mut edges, progress, |a: &Edge, b| (a.p, a.q).cmp(&(b.p, b.q)))?;
+    Ok(edges)
 }
+
+/// Memory for each diagonal at the peak: itself, and twice what is made of it.
+const BYTES: usize = size_of::<Edge>() + 2 * size_of::<[u32; 2]>();
 
 /// The points on the empty circle around the triangles of `edge`, counter-clockwise.
 ///
@@ -104,19 +123,16 @@ fn between(delaunay: &Delaunay, u: u32, v: u32) -> Edge {
     Edge { p: u, q: v, left: star.left(k), right: star.right(k) }
 }
 
-fn diagonals_of(ring: &[u32]) -> Vec<Edge> {
+/// The diagonals from point `i` of a ring to later ones.
+fn diagonals_from(ring: &[u32], i: usize) -> impl Iterator<Item = Edge> {
     let count = ring.len();
-    let mut edges = Vec::with_capacity(count * (count - 3) / 2);
-    for i in 0..count - 2 {
-        // The first and the last point are neighbors on the circle.
-        for j in i + 2..count.min(count - 1 + i) {
-            let (right, left) = (Some(ring[i + 1]), Some(ring[(j + 1) % count]));
-            edges.push(if ring[i] < ring[j] {
-                Edge { p: ring[i], q: ring[j], left, right }
-            } else {
-                Edge { p: ring[j], q: ring[i], left: right, right: left }
-            });
+    // The first and the last point are neighbors on the circle.
+    (i + 2..count.min(count - 1 + i)).map(move |j| {
+        let (right, left) = (Some(ring[i + 1]), Some(ring[(j + 1) % count]));
+        if ring[i] < ring[j] {
+            Edge { p: ring[i], q: ring[j], left, right }
+        } else {
+            Edge { p: ring[j], q: ring[i], left: right, right: left }
         }
-    }
-    edges
+    })
 }

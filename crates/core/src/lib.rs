@@ -29,6 +29,7 @@ pub mod ridge;
 mod space;
 pub mod tiles;
 pub mod trace;
+mod voronoi;
 
 pub use delaunay::Delaunay;
 pub use error::{Error, Result};

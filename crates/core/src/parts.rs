@@ -5,7 +5,9 @@
 use crate::error::Result;
 use crate::progress::Progress;
 use rayon::prelude::*;
+use std::cmp::Ordering;
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// Items in a part, where there is no reason for another number.
 pub const GRAIN: usize = 1 << 12;
@@ -53,6 +55,24 @@ pub fn map<T: Clone + Send>(
     Ok(values)
 }
 
+/// Do all numbers below `count` fulfill `condition`? One that does not ends the search.
+///
+/// # Errors
+/// A cancelled `progress`.
+pub fn all(
+    count: usize,
+    progress: &Progress,
+    condition: impl Fn(usize) -> bool + Sync,
+) -> Result<bool> {
+    let fails = AtomicBool::new(false);
+    in_parts(count, GRAIN, progress, |mut numbers| {
+        if !fails.load(Relaxed) && !numbers.all(&condition) {
+            fails.store(true, Relaxed);
+        }
+    })?;
+    Ok(!fails.into_inner())
+}
+
 /// Do `work` on each of `parts`, with its number.
 ///
 /// # Errors
@@ -86,6 +106,26 @@ pub fn collect<S: Sync, T: Send>(items: &[S], value: impl Fn(&S) -> T + Sync + S
     } else {
         items.par_iter().with_min_len(GRAIN).map(value).collect()
     }
+}
+
+/// Sort `items` in parallel; if the call is cancelled they may be left in any order.
+///
+/// # Errors
+/// A cancelled `progress`.
+pub fn sort_by<T: Send>(
+    items: &mut [T],
+    progress: &Progress,
+    compare: impl Fn(&T, &T) -> Ordering + Sync,
+) -> Result<()> {
+    if items.len() <= GRAIN {
+        items.sort_unstable_by(compare);
+    } else {
+        // Where all is equal, a sort is done soon.
+        items.par_sort_unstable_by(|a, b| {
+            if progress.is_cancelled() { Ordering::Equal } else { compare(a, b) }
+        });
+    }
+    progress.advance(0)
 }
 
 /// Split `slice` into successive parts of these lengths, which sum to no more than its own.

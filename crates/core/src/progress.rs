@@ -42,6 +42,8 @@ pub struct Progress {
     stage: AtomicUsize,
     done: AtomicUsize,
     total: AtomicUsize,
+    #[cfg(test)]
+    pub(crate) looks: Arc<looks_tests::Looks>,
 }
 
 impl Progress {
@@ -53,7 +55,12 @@ impl Progress {
     /// The progress of a part of the call: it stops with the whole, and what it reports is not shown.
     #[must_use]
     pub fn quiet(&self) -> Self {
-        Self { cancelled: Arc::clone(&self.cancelled), ..Self::default() }
+        Self {
+            cancelled: Arc::clone(&self.cancelled),
+            #[cfg(test)]
+            looks: Arc::clone(&self.looks),
+            ..Self::default()
+        }
     }
 
     /// The current stage's name and the fraction of it that is done.
@@ -68,6 +75,7 @@ impl Progress {
     ///
     /// # Errors
     /// [`Error::Cancelled`] if the caller asked to stop.
+    #[cfg_attr(test, track_caller)]
     pub fn enter(&self, stage: Stage, total: usize) -> Result<()> {
         self.done.store(0, Relaxed);
         self.total.store(total, Relaxed);
@@ -75,12 +83,27 @@ impl Progress {
         self.advance(0)
     }
 
+    /// Did the caller ask to stop?
+    #[inline]
+    #[must_use]
+    pub fn is_cancelled(&self) -> bool {
+        self.cancelled.load(Relaxed)
+    }
+
     /// Report `units` of work as done.
     ///
     /// # Errors
     /// [`Error::Cancelled`] if the caller asked to stop.
+    #[cfg_attr(test, track_caller)]
     pub fn advance(&self, units: usize) -> Result<()> {
+        #[cfg(test)]
+        self.looks.note();
         self.done.fetch_add(units, Relaxed);
-        if self.cancelled.load(Relaxed) { Err(Error::Cancelled) } else { Ok(()) }
+        if self.is_cancelled() { Err(Error::Cancelled) } else { Ok(()) }
     }
 }
+
+#[cfg(test)]
+mod looks_tests;
+#[cfg(test)]
+pub(crate) mod work_tests;

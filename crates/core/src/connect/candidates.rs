@@ -38,7 +38,7 @@ impl Candidates {
     /// # Errors
     /// More half-edges than 32 bits can number, or a cancelled `progress`.
     pub fn new(delaunay: &Delaunay, keep: &[[u32; 2]], progress: &Progress) -> Result<Self> {
-        let tied = tied(delaunay, keep);
+        let tied = tied(delaunay, keep, progress)?;
         progress.advance(0)?;
         let vertices = delaunay.points().len();
         let offsets = offsets(delaunay, &tied)?;
@@ -256,16 +256,16 @@ pub fn by_vertex<T: Copy + Default + Send>(
 
 /// The diagonals of cocircular points and the edges to keep that are not in the triangulation, from both of their ends,
 /// sorted.
-fn tied(delaunay: &Delaunay, keep: &[[u32; 2]]) -> Vec<(u32, Edge)> {
+fn tied(delaunay: &Delaunay, keep: &[[u32; 2]], progress: &Progress) -> Result<Vec<(u32, Edge)>> {
     let is_new = |edge: &Edge| !delaunay.star(edge.p).neighbors.contains(&edge.q);
     let both = |edge: Edge| [(edge.p, edge), (edge.q, edge)];
     let kept = keep.iter().filter(|pair| pair[0] < pair[1]);
     let kept = kept.map(|&[p, q]| Edge { p, q, left: None, right: None });
-    let all = diagonals(delaunay).into_iter().chain(kept);
+    let all = diagonals(delaunay, progress)?.into_iter().chain(kept);
     let mut tied: Vec<_> = all.filter(is_new).flat_map(both).collect();
     tied.par_sort_unstable_by_key(|&(v, edge)| (v, edge.p, edge.q));
     tied.dedup_by_key(|&mut (v, edge)| (v, edge.p, edge.q));
-    tied
+    Ok(tied)
 }
 
 fn offsets(delaunay: &Delaunay, tied: &[(u32, Edge)]) -> Result<Vec<u32>> {

@@ -42,7 +42,7 @@ impl Connection {
         let vertices = vertices_of_rows(delaunay);
         let ends = |edge: &[u32; 2]| edge.map(|row| vertices[row as usize]);
         let answer = Adjacency::new(delaunay, &edges);
-        let around = Surroundings::new(delaunay, found, &answer);
+        let around = Surroundings::new(delaunay, found, &answer, progress)?;
         progress.advance(0)?;
         let features: Vec<_> = edges.par_iter().map(|edge| around.of(ends(edge))).collect();
         let confidence: Vec<f64> =

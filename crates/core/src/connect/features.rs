@@ -6,6 +6,8 @@ use super::found::Found;
 use crate::adjacency::Adjacency;
 use crate::cocircular::diagonals;
 use crate::delaunay::Delaunay;
+use crate::error::Result;
+use crate::progress::Progress;
 
 /// How many numbers describe an edge.
 pub const FEATURES: usize = 20;
@@ -39,8 +41,15 @@ pub struct Surroundings<'a> {
 
 impl<'a> Surroundings<'a> {
     /// Around the vertices of curves.
-    #[must_use]
-    pub fn new(delaunay: &Delaunay, found: &'a Found<'a>, curves: &'a Adjacency) -> Self {
+    ///
+    /// # Errors
+    /// Too little memory for the diagonals of cocircular points, or a cancelled `progress`.
+    pub fn new(
+        delaunay: &Delaunay,
+        found: &'a Found<'a>,
+        curves: &'a Adjacency,
+        progress: &Progress,
+    ) -> Result<Self> {
         let candidates = &found.candidates;
         let steps = Steps::new(found, curves);
         let dimension = excess_dimension(delaunay, candidates, &steps);
@@ -48,11 +57,11 @@ impl<'a> Surroundings<'a> {
             let out = candidates.from(v).filter(|&e| !found.selection.chosen[e]);
             out.map(|e| f64::from(found.beliefs[e])).fold(SURE, f64::min).max(-SURE)
         });
-        let beside = beside(delaunay, found, curves);
+        let beside = beside(delaunay, found, curves, progress)?;
         let alone = (0..candidates.vertices()).filter(|&v| curves.of(v as u32).is_empty()).count();
         let isolated = alone as f64 / candidates.vertices().max(1) as f64;
         let sizes = sizes(candidates.vertices(), curves);
-        Self { found, curves, steps, dimension, rivals, beside, sizes, isolated }
+        Ok(Self { found, curves, steps, dimension, rivals, beside, sizes, isolated })
     }
 
     /// What describes the edge between two vertices; `None` if no message was sent about it.
@@ -132,20 +141,26 @@ impl<'a> Surroundings<'a> {
 }
 
 /// The distance from each vertex to the nearest neighbor along no edge of `curves`, over all diagonals of cocircular points.
-fn beside(delaunay: &Delaunay, found: &Found<'_>, curves: &Adjacency) -> Vec<f64> {
+fn beside(
+    delaunay: &Delaunay,
+    found: &Found<'_>,
+    curves: &Adjacency,
+    progress: &Progress,
+) -> Result<Vec<f64>> {
     let distance = |v: u32, end: u32| found.spacing.distance(v as usize, end as usize);
     let mut beside = by_vertex(found.candidates.vertices(), |v| {
         let near = delaunay.star(v as u32).neighbors.iter();
         let beside = near.filter(|&&end| curves.edge(v as u32, end).is_none());
         beside.map(|&end| distance(v as u32, end)).fold(f64::INFINITY, f64::min)
     });
-    for edge in diagonals(delaunay).iter().filter(|edge| curves.edge(edge.p, edge.q).is_none()) {
+    let diagonals = diagonals(delaunay, progress)?;
+    for edge in diagonals.iter().filter(|edge| curves.edge(edge.p, edge.q).is_none()) {
         for v in [edge.p, edge.q] {
             let own = &mut beside[v as usize];
             *own = own.min(distance(edge.p, edge.q));
         }
     }
-    beside
+    Ok(beside)
 }
 
 fn margin(belief: f32) -> f64 {

@@ -6,7 +6,7 @@
 
 use crate::exact::circumcenter::{Center, HomogeneousCenter};
 use crate::exact::double_double::DoubleDouble;
-use crate::exact::filter::{Approximate, ROUNDING};
+use crate::exact::filter::{Approximate, ROUNDING, UNDERFLOW};
 use crate::exact::predicates::in_circle;
 use crate::exact::sign::{self, Form, Number};
 use crate::point::{Point, cross, dot, length, sub};
@@ -74,6 +74,37 @@ pub struct Disk {
     pub error: f64,
 }
 
+impl Disk {
+    /// Is it the disk inside `circle`, with the same triangle for its vertex?
+    #[must_use]
+    pub fn is_inside(&self, circle: &Circle) -> bool {
+        match (&self.circle, circle) {
+            (Circle::Smallest, Circle::Smallest) => true,
+            (Circle::Through(a), Circle::Through(b)) => a.triangle == b.triangle,
+            _ => false,
+        }
+    }
+
+    /// May the disk meet the rectangle between two corners relative to p? False only if they are certainly apart.
+    ///
+    /// With c the center, v is outside where v·(v − 2 c) > 0: a sum of a term in x and one in y, each least nearest to the center. It is
+    /// off by 2 |v| for each unit that c is off, so even for a large disk it is known to a small part of |v|.
+    #[must_use]
+    pub fn may_meet(&self, low: Point, high: Point) -> bool {
+        let (mut least, mut doubt) = (0.0, UNDERFLOW);
+        for axis in [0, 1] {
+            let center = self.center[axis];
+            let nearest = center.max(low[axis]).min(high[axis]);
+            least += nearest * (nearest - 2.0 * center);
+            let reach = low[axis].abs().max(high[axis].abs());
+            doubt += reach * (2.0 * self.error + 16.0 * ROUNDING * (reach + 2.0 * center.abs()));
+        }
+        // An unknown (not a number) meets.
+        let is_apart = least > doubt;
+        !is_apart
+    }
+}
+
 impl Pencil {
     /// The pencil of the circles through `p` and `q`.
     #[must_use]
@@ -119,11 +150,21 @@ impl Pencil {
     #[cold]
     fn solve(&self, vertex: Vertex) -> Disk {
         let [a, b, c] = vertex.triangle;
-        let of = |axis| {
-            let points = [self.q, a, b, c];
-            sign::quotient(&CenterThrough { axis }, &PlaceTwice, self.p, &points)
-        };
-        let center = [of(0), of(1)];
+        let points = [self.q, a, b, c];
+        #[cfg(test)]
+        crate::progress::work_tests::count(
+            crate::progress::work_tests::BIT * PlaceTwice.bound(53) as usize,
+        );
+        let (at, unit) = DoubleDouble::differences(self.p, &points);
+        let known = place(&at[0], [&at[1], &at[2], &at[3]]);
+        let center = [0, 1].map(|axis| {
+            let quick =
+                center_through(axis, &at[0], &known).over(&known.twice_height(), sign::ACCURACY);
+            quick.map_or_else(
+                || sign::quotient(&CenterThrough { axis }, &PlaceTwice, self.p, &points),
+                |x| x * unit,
+            )
+        });
         let radius = length(center);
         let error = 2.0 * sign::ACCURACY * radius + of_radius(radius.min(length(self.chord)));
         // The center is at (q − p) / 2 + t n.
@@ -135,7 +176,7 @@ impl Pencil {
             error: 4.0 * error / length(self.chord),
         };
         let circle = Circle::Through(vertex);
-        Disk { circle, parameter, place: OnceCell::new(), center, radius, error }
+        Disk { circle, parameter, place: OnceCell::from(known), center, radius, error }
     }
 
     /// The third corner of the triangle whose center the circle of `disk` goes through, if p and q are the other two.
@@ -254,6 +295,10 @@ struct Place<T> {
 }
 
 impl<T: Number> Place<T> {
+    fn twice_height(&self) -> T {
+        self.height.plus(&self.height)
+    }
+
     /// Negative if this center is inside the circle through the other, times the latter's side.
     fn excess(&self, other: &Self) -> T {
         self.power.times(&other.height).minus(&other.power.times(&self.height))
@@ -305,11 +350,14 @@ impl Form<4> for CenterThrough {
         7 * bits + 16
     }
     fn value<T: Number>(&self, [q, a, b, c]: &[[T; 2]; 4]) -> T {
-        let Place { power, height } = place(q, [a, b, c]);
-        let along = q[self.axis].times(&height);
-        let aside = q[1 - self.axis].times(&power);
-        if self.axis == 0 { along.minus(&aside) } else { along.plus(&aside) }
+        center_through(self.axis, q, &place(q, [a, b, c]))
     }
+}
+
+fn center_through<T: Number>(axis: usize, q: &[T; 2], place: &Place<T>) -> T {
+    let along = q[axis].times(&place.height);
+    let aside = q[1 - axis].times(&place.power);
+    if axis == 0 { along.minus(&aside) } else { along.plus(&aside) }
 }
 
 /// Twice the height: what both coordinates are divided by.
@@ -320,7 +368,7 @@ impl Form<4> for PlaceTwice {
         6 * bits + 14
     }
     fn value<T: Number>(&self, [q, a, b, c]: &[[T; 2]; 4]) -> T {
-        T::integer(2).times(&place(q, [a, b, c]).height)
+        place(q, [a, b, c]).twice_height()
     }
 }
 

@@ -64,6 +64,8 @@ pub fn exact_sign_by<const N: usize, F: Form<N>>(
     points: &[Point; N],
     precise: impl FnOnce() -> Option<Ordering>,
 ) -> Ordering {
+    #[cfg(test)]
+    crate::progress::work_tests::count(crate::progress::work_tests::BIT * form.bound(53) as usize);
     match integral_differences(origin, points) {
         Some((at, bits)) if form.bound(bits) < 63 => form.value(&at).cmp(&0),
         _ => wide_sign(form, origin, points, precise),
@@ -108,6 +110,10 @@ fn fixed_sign<const N: usize, F: Form<N>>(
 
 /// The sign of `form` in integers of any size.
 fn big_sign<const N: usize, F: Form<N>>(form: &F, origin: Point, points: &[Point; N]) -> Ordering {
+    #[cfg(test)]
+    crate::progress::work_tests::count(
+        crate::progress::work_tests::BIG_BIT * form.bound(53) as usize,
+    );
     match common_unit(origin, points) {
         None => Ordering::Equal,
         Some(unit) => form.value(&big_differences(origin, points, unit)).cmp(&BigInt::ZERO),
@@ -124,6 +130,10 @@ pub fn quotient<const N: usize>(
     origin: Point,
     points: &[Point; N],
 ) -> f64 {
+    #[cfg(test)]
+    crate::progress::work_tests::count(
+        crate::progress::work_tests::BIT * numerator.bound(53) as usize,
+    );
     let (at, unit) = DoubleDouble::differences(origin, points);
     let (n, d) = (numerator.value(&at), denominator.value(&at));
     n.over(&d, ACCURACY)

@@ -7,8 +7,10 @@
 use super::stencil::Scale;
 use crate::adjacency::Adjacency;
 use crate::delaunay::Delaunay;
+use crate::error::Result;
+use crate::parts::{GRAIN, map, try_each};
 use crate::point::{Point, cross, dot, sub};
-use rayon::prelude::*;
+use crate::progress::Progress;
 
 /// How much larger than a neighbor's second derivative of the curvature that of a sample may be.
 const LIMIT: f64 = 3.0;
@@ -96,18 +98,27 @@ pub fn turned([x, y]: Point, angle: f64) -> Point {
 }
 
 /// The interpolant at each vertex; `None` at isolated points and branches.
-#[must_use]
-pub fn bends(delaunay: &Delaunay, curve: &Adjacency, scale: &Scale) -> Vec<Option<Bend>> {
-    let vertices = 0..delaunay.points().len() as u32;
-    let mut bends: Vec<_> =
-        vertices.clone().into_par_iter().map(|v| circle(delaunay, curve, v)).collect();
-    let fits: Vec<_> = vertices.into_par_iter().map(|v| Fit::new(&bends, scale, v)).collect();
-    bends.par_iter_mut().zip(&fits).for_each(|(bend, fit)| {
-        if let (Some(bend), Some(fit)) = (bend, fit) {
-            fit.refine(bend, &fits);
+///
+/// # Errors
+/// A cancelled `progress`.
+pub fn bends(
+    delaunay: &Delaunay,
+    curve: &Adjacency,
+    scale: &Scale,
+    progress: &Progress,
+) -> Result<Vec<Option<Bend>>> {
+    let count = delaunay.points().len();
+    let mut bends = map(count, None, progress, |v| circle(delaunay, curve, v as u32))?;
+    let fits = map(count, None, progress, |v| Fit::new(&bends, scale, v as u32))?;
+    try_each(bends.chunks_mut(GRAIN).collect(), |k, part| {
+        for (bend, fit) in part.iter_mut().zip(&fits[k * GRAIN..]) {
+            if let (Some(bend), Some(fit)) = (bend, fit) {
+                fit.refine(bend, &fits);
+            }
         }
-    });
-    bends
+        progress.advance(part.len())
+    })?;
+    Ok(bends)
 }
 
 /// The circle through a vertex and those adjacent to it; at an endpoint through it and the next two.
@@ -153,6 +164,7 @@ fn arc(d: Point, curvature: f64) -> f64 {
 }
 
 /// What makes a quadratic of the mean curvature at a vertex and those adjacent, in the vertex's direction.
+#[derive(Debug, Clone)]
 struct Fit {
     /// Half the second derivative of the quadratic that has these means, not limited.
     second: f64,

@@ -47,9 +47,8 @@ impl Interpolant {
         let curve = Adjacency::new(delaunay, edges);
         let scale = Scale::of(delaunay.points());
         let stencil = stencil(delaunay, &curve, &scale, progress)?;
-        progress.enter(Stage::Interpolate, 3 * delaunay.points().len())?;
-        let bends = bends(delaunay, &stencil, &scale);
-        progress.advance(delaunay.points().len())?;
+        progress.enter(Stage::Interpolate, 5 * delaunay.points().len())?;
+        let bends = bends(delaunay, &stencil, &scale, progress)?;
         let tree = Tree::new(&axis(delaunay, &bends, progress)?, scale.bounds);
         let places = delaunay.points();
         let mut nearest = vec![(0, 0.0); places.len()];

@@ -3,6 +3,8 @@
 //! The Voronoi edges whose dual Delaunay edge is not selected. Its part inside the rings is told from the part outside by
 //! a flood over the vertices, which flips where it crosses a ring.
 
+mod far;
+
 use crate::adjacency::{Adjacency, vertices_of_rows};
 use crate::delaunay::{Delaunay, NONE};
 use crate::edges::Edges;
@@ -12,33 +14,14 @@ use crate::exact::filter::ROUNDING;
 use crate::exact::predicates::in_circle;
 use crate::forest::Forest;
 use crate::memory;
-use crate::parts::split;
+use crate::parts::{all, in_parts, map, split};
 use crate::point::{Point, length, lexicographic, sub};
-use crate::progress::{Progress, Stage};
+use crate::progress::{PACE, Progress, Stage};
 use crate::trace::trace_edges;
+pub use far::MedialAxis;
 use rayon::prelude::*;
+use std::cell::OnceCell;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
-
-/// The medial axis of samples.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct MedialAxis {
-    /// Voronoi vertices, in the scale of the input; triangles on one circle share one.
-    pub vertices: Vec<Point>,
-    /// The distance from each vertex to the samples nearest to it.
-    pub radii: Vec<f64>,
-    /// Pairs of vertices: to the left and to the right of the Delaunay edge in `samples`.
-    pub edges: Vec<[u32; 2]>,
-    /// The two rows that each edge separates, i < j, sorted.
-    pub samples: Vec<[u32; 2]>,
-    /// Is the edge inside an odd number of rings?
-    pub inner: Vec<bool>,
-    /// The vertex that each unbounded edge starts at.
-    pub ray_origins: Vec<u32>,
-    /// Its unit direction.
-    pub ray_directions: Vec<Point>,
-    /// The two rows that it separates, i < j, sorted.
-    pub ray_samples: Vec<[u32; 2]>,
-}
 
 /// The Voronoi edges whose dual is not in `edges`, which are canonical.
 ///
@@ -56,25 +39,31 @@ pub fn medial_axis(delaunay: &Delaunay, edges: &Edges, progress: &Progress) -> R
         return Ok(of_line(delaunay, &curve));
     }
     let flips = flipping(delaunay, &curve, progress)?;
-    progress.enter(Stage::Axis, STEPS)?;
+    let vertices = delaunay.points().len();
+    // The triangles once; the vertices for ties, for steps to the left, for edges and in the order of the rows.
+    progress.enter(Stage::Axis, triangles.len() + 4 * vertices)?;
     let wedges = delaunay.wedge_triangles();
-    progress.advance(1)?;
-    let circles: Vec<Circle> = triangles.par_iter().map(|t| Circle::new(delaunay, t)).collect();
+    let circle = |t: usize| Circle::new(delaunay, &triangles[t]);
+    let circles = map(triangles.len(), Circle::default(), progress, circle)?;
     drop(triangles);
     let mesh = Mesh { delaunay, circles: &circles, wedges: &wedges, curve: &curve, flips: &flips };
-    progress.advance(1)?;
-    let centers = one_for_each_circle(&mesh);
-    progress.advance(1)?;
-    let inside = inside(&mesh);
-    progress.advance(1)?;
-    Ok(collect(&mesh, &inside, &centers))
+    let centers = one_for_each_circle(&mesh, progress)?;
+    let inside = inside(&mesh, progress)?;
+    let axis = collect(&mesh, &inside, &centers, progress)?;
+    Ok(far::at_infinity(axis, place_of(delaunay)))
+}
+
+/// The points by row, in the scale of the input; a duplicate is no sample.
+fn place_of(delaunay: &Delaunay) -> impl Fn(u32) -> Point {
+    let vertex = OnceCell::new();
+    move |row| {
+        let vertex: &Vec<u32> = vertex.get_or_init(|| vertices_of_rows(delaunay));
+        delaunay.point(vertex[row as usize]).map(|x| x / delaunay.scale())
+    }
 }
 
 /// Memory for each vertex at the peak, about.
 const BYTES: usize = 432;
-
-/// Steps of about the same time, which progress counts.
-const STEPS: usize = 5;
 
 /// The triangulation as stars, with curves in it.
 struct Mesh<'a> {
@@ -128,23 +117,21 @@ impl Mesh<'_> {
             |&&(q, number): &&(u32, u32)| self.flips[number as usize] && first.contains(&q);
         self.curve.of(p).iter().filter(is_first).count()
     }
-
-    fn vertices(&self) -> impl IndexedParallelIterator<Item = u32> {
-        (0..self.delaunay.points().len() as u32).into_par_iter()
-    }
 }
 
 /// For each edge: does crossing it lead from the inside of a ring to its outside?
 ///
 /// Open curves do not separate. Neither do rings with an edge that is not in the triangulation.
 fn flipping(delaunay: &Delaunay, curve: &Adjacency, progress: &Progress) -> Result<Vec<bool>> {
-    let vertices = (0..delaunay.points().len() as u32).into_par_iter();
-    let simple = |v: u32| match curve.of(v) {
+    progress.enter(Stage::Trace, delaunay.points().len())?;
+    let simple = |v: usize| match curve.of(v as u32) {
         [] => true,
-        [(a, _), (b, _)] => [a, b].iter().all(|end| delaunay.star(v).neighbors.contains(end)),
+        [(a, _), (b, _)] => {
+            [a, b].iter().all(|end| delaunay.star(v as u32).neighbors.contains(end))
+        }
         _ => false,
     };
-    if vertices.all(simple) {
+    if all(delaunay.points().len(), progress, simple)? {
         return Ok(vec![true; curve.edges().len()]);
     }
     let traced = trace_edges(delaunay.points(), curve.edges(), progress)?;
@@ -164,11 +151,15 @@ fn flipping(delaunay: &Delaunay, curve: &Adjacency, progress: &Progress) -> Resu
 ///
 /// Every vertex but the leftmost has a neighbor that comes before it from left to right, so steps to such neighbors lead
 /// from each vertex to the leftmost, whose first half-edge has the outside to its right.
-fn inside(mesh: &Mesh<'_>) -> Vec<bool> {
-    let steps: Vec<(u32, bool)> = mesh.vertices().map(|v| step_left(mesh, v)).collect();
+fn inside(mesh: &Mesh<'_>, progress: &Progress) -> Result<Vec<bool>> {
+    let count = mesh.delaunay.points().len();
+    let steps = map(count, (NONE, false), progress, |v| step_left(mesh, v as u32))?;
     let mut inside = vec![None; steps.len()];
     let mut path = Vec::new();
     for v in 0..steps.len() {
+        if v % PACE == 0 {
+            progress.advance(0)?;
+        }
         let mut at = v;
         while inside[at].is_none() && steps[at].0 != NONE {
             path.push(at);
@@ -181,7 +172,7 @@ fn inside(mesh: &Mesh<'_>) -> Vec<bool> {
             inside[back] = Some(is_inside);
         }
     }
-    inside.into_iter().map(|inside| inside == Some(true)).collect()
+    Ok(inside.into_iter().map(|inside| inside == Some(true)).collect())
 }
 
 /// A neighbor of `v` before it from left to right, and whether only one of their first half-edges has the inside to its right.
@@ -200,16 +191,21 @@ fn step_left(mesh: &Mesh<'_>, v: u32) -> (u32, bool) {
 }
 
 /// For each triangle, the first of those on its circle that it is connected with.
-fn one_for_each_circle(mesh: &Mesh<'_>) -> Vec<u32> {
-    let ties: Vec<[u32; 2]> = mesh.vertices().flat_map_iter(|p| mesh.ties(p)).collect();
-    if ties.is_empty() {
-        return (0..mesh.circles.len() as u32).collect();
+fn one_for_each_circle(mesh: &Mesh<'_>, progress: &Progress) -> Result<Vec<u32>> {
+    let ties = in_parts(mesh.delaunay.points().len(), GRAIN, progress, |vertices| {
+        vertices.flat_map(|p| mesh.ties(p as u32)).collect::<Vec<_>>()
+    })?;
+    if ties.iter().all(Vec::is_empty) {
+        return Ok((0..mesh.circles.len() as u32).collect());
     }
     let mut circles = Forest::new(mesh.circles.len());
-    for [a, b] in ties {
-        circles.join(a, b);
+    for part in ties {
+        for [a, b] in part {
+            circles.join(a, b);
+        }
+        progress.advance(0)?;
     }
-    circles.into_roots()
+    Ok(circles.into_roots())
 }
 
 /// An edge of the axis: its samples as rows, the triangles to their left and right, and whether it is inside.
@@ -266,10 +262,15 @@ impl Part {
     }
 }
 
-fn collect(mesh: &Mesh<'_>, inside: &[bool], centers: &[u32]) -> MedialAxis {
-    let parts = inside.par_chunks(GRAIN).enumerate();
-    let parts: Vec<Part> =
-        parts.map(|(k, inside)| Part::new(mesh, k * GRAIN, inside, centers)).collect();
+fn collect(
+    mesh: &Mesh<'_>,
+    inside: &[bool],
+    centers: &[u32],
+    progress: &Progress,
+) -> Result<MedialAxis> {
+    let parts = in_parts(inside.len(), GRAIN, progress, |vertices| {
+        Part::new(mesh, vertices.start, &inside[vertices], centers)
+    })?;
     let rays = rays(mesh);
     let origins: Vec<u32> =
         rays.iter().map(|&(_, p, _)| centers[mesh.triangles_at(p)[0] as usize]).collect();
@@ -278,8 +279,8 @@ fn collect(mesh: &Mesh<'_>, inside: &[bool], centers: &[u32]) -> MedialAxis {
     let circle = |&t: &u32| &mesh.circles[t as usize];
     let vertices = used.par_iter().map(|t| circle(t).center.map(|x| x / scale)).collect();
     let radii = used.par_iter().map(|t| circle(t).radius / scale).collect();
-    let found = by_rows(mesh.delaunay, &parts);
-    MedialAxis {
+    let found = by_rows(mesh.delaunay, &parts, progress)?;
+    let axis = MedialAxis {
         vertices,
         radii,
         edges: column(&found, |&(_, sides, _)| sides.map(|t| number[t as usize])),
@@ -288,7 +289,9 @@ fn collect(mesh: &Mesh<'_>, inside: &[bool], centers: &[u32]) -> MedialAxis {
         ray_origins: origins.iter().map(|&t| number[t as usize]).collect(),
         ray_directions: rays.iter().map(|&(_, p, q)| outward(mesh.delaunay, (p, q))).collect(),
         ray_samples: rays.iter().map(|&(samples, _, _)| samples).collect(),
-    }
+    };
+    progress.advance(0)?;
+    Ok(axis)
 }
 
 /// The edges of the hull that are not selected: rows, sorted, and vertices, counter-clockwise.
@@ -322,7 +325,7 @@ fn numbers(triangles: usize, parts: &[Part], origins: &[u32]) -> (Vec<u32>, Vec<
 }
 
 /// All edges of the axis, sorted by their samples, those of `GRAIN` successive rows at a time.
-fn by_rows(delaunay: &Delaunay, parts: &[Part]) -> Vec<Vec<Found>> {
+fn by_rows(delaunay: &Delaunay, parts: &[Part], progress: &Progress) -> Result<Vec<Vec<Found>>> {
     let mut vertex = vertices_of_rows(delaunay);
     for &[row, _] in delaunay.duplicates() {
         vertex[row as usize] = NONE;
@@ -334,7 +337,7 @@ fn by_rows(delaunay: &Delaunay, parts: &[Part]) -> Vec<Vec<Found>> {
         }
         found
     };
-    vertex.par_chunks(GRAIN).map(of_rows).collect()
+    in_parts(vertex.len(), GRAIN, progress, |rows| of_rows(&vertex[rows]))
 }
 
 /// A field of all edges of the axis.
@@ -351,6 +354,7 @@ fn column<T: Copy + Default + Send>(
 }
 
 /// The circle through the corners of a triangle, in the scale of the triangulation.
+#[derive(Debug, Clone, Copy, Default)]
 struct Circle {
     center: Point,
     radius: f64,

@@ -13,11 +13,11 @@ use crate::exact::angle_bound::AngleBound;
 use crate::exact::constant::{Constant, fraction};
 use crate::exact::filter;
 use crate::exact::sign::{self, Form, Number};
+use crate::parts::all;
 use crate::point::{Point, dot, sub};
 use crate::progress::{Progress, Stage};
 use crate::space::bounds::Bounds;
 use crate::space::boxes::Boxes;
-use rayon::prelude::*;
 use std::cmp::Ordering::{Equal, Greater};
 
 /// The family of forbidden regions for β > 1; for β ≤ 1 they are the same.
@@ -72,14 +72,15 @@ pub fn is_beta_skeleton(
         let message = format!("beta must be a finite number above 1, not {beta}");
         return Err(Error::Argument { message });
     }
-    progress.enter(Stage::Select, delaunay.points().len())?;
+    progress.enter(Stage::Select, curve.edges().len() + delaunay.points().len())?;
     let bound = AngleBound::of_beta(beta);
     let is_chosen = |edge: &Edge| curve.edge(edge.p, edge.q).is_some();
     let agrees = |edge: Edge| is_chosen(&edge) == has_angles(delaunay, edge, &bound, &bound);
     let in_triangulation = |&[p, q]: &[u32; 2]| delaunay.star(p).neighbors.contains(&q);
-    let vertices = (0..delaunay.points().len() as u32).into_par_iter();
-    Ok(curve.edges().par_iter().all(in_triangulation)
-        && vertices.all(|p| delaunay.edges_from(p).all(agrees)))
+    let own = curve.edges();
+    let is_within = all(own.len(), progress, |k| in_triangulation(&own[k]))?;
+    Ok(is_within
+        && all(delaunay.points().len(), progress, |p| delaunay.edges_from(p as u32).all(agrees))?)
 }
 
 /// The edges with an empty lune, for `beta` > 1.

@@ -23,7 +23,8 @@ pub fn compatible_crust(delaunay: &Delaunay, cotangent: f64, progress: &Progress
         let message = format!("the cotangent of the angle must be finite, not {cotangent}");
         return Err(Error::Argument { message });
     }
-    let (neighborhood, least) = (Neighborhood::new(delaunay), AngleBound::of_cotangent(cotangent));
+    let (neighborhood, least) =
+        (Neighborhood::new(delaunay, progress)?, AngleBound::of_cotangent(cotangent));
     let is_compatible = |p: u32, q: u32, s: u32| {
         let [p, q, s] = [p, q, s].map(|vertex| delaunay.point(vertex));
         s != q && least.compare(q, s, p) != Greater

@@ -12,9 +12,9 @@ use crate::error::{Error, Result};
 use crate::exact::circumcenter::HomogeneousCenter;
 use crate::exact::constant::{Constant, fraction};
 use crate::exact::sign::{self, Form, Number};
+use crate::parts::{GRAIN, in_parts, map};
 use crate::point::Point;
 use crate::progress::{Progress, Stage};
-use rayon::prelude::*;
 use std::cmp::Ordering::{Greater, Less};
 
 /// The largest set of Gabriel edges whose disks, `ratio` times the smallest that touches both ends,
@@ -30,13 +30,12 @@ pub fn conservative_crust(delaunay: &Delaunay, ratio: f64, progress: &Progress) 
         let message = format!("ratio must be a positive finite number, not {ratio}");
         return Err(Error::Argument { message });
     }
-    progress.enter(Stage::Select, delaunay.points().len())?;
-    let joined = candidates(delaunay);
+    progress.enter(Stage::Select, 2 * delaunay.points().len())?;
+    let joined = candidates(delaunay, progress)?;
     let squares = fraction(ratio).map(|value| Constant::new(&(&value * &value)));
     let disks = Disks { delaunay, joined: &joined, squares };
-    let crossed: Vec<Option<Vec<u32>>> =
-        joined.edges().par_iter().map(|&[p, q]| disks.crossed(p, q)).collect();
-    progress.advance(delaunay.points().len() / 2)?;
+    let own = joined.edges();
+    let crossed = map(own.len(), None, progress, |k| disks.crossed(own[k][0], own[k][1]))?;
     let stays = largest(&crossed);
     let kept = joined.edges().iter().zip(stays).filter(|&(_, stays)| stays);
     let kept = kept.map(|(&[p, q], _)| rows(delaunay, p, q)).collect();
@@ -44,11 +43,14 @@ pub fn conservative_crust(delaunay: &Delaunay, ratio: f64, progress: &Progress) 
 }
 
 /// The Gabriel edges that are in every Delaunay triangulation.
-fn candidates(delaunay: &Delaunay) -> Adjacency {
-    let all: Vec<Edge> = delaunay.edges().collect();
-    let candidates = all.into_par_iter().filter(|&edge| is_candidate(delaunay, edge));
-    let pairs: Edges = candidates.map(|edge| [edge.p, edge.q]).collect();
-    Adjacency::of_vertices(&[pairs], delaunay.points().len())
+fn candidates(delaunay: &Delaunay, progress: &Progress) -> Result<Adjacency> {
+    let count = delaunay.points().len();
+    let parts = in_parts(count, GRAIN, progress, |vertices| {
+        let edges = vertices.flat_map(|p| delaunay.edges_from(p as u32));
+        let candidates = edges.filter(|&edge| is_candidate(delaunay, edge));
+        candidates.map(|edge| [edge.p, edge.q]).collect()
+    })?;
+    Ok(Adjacency::of_vertices(&parts, count))
 }
 
 /// Is `edge` in every Delaunay triangulation, with no point inside the smallest disk?
@@ -93,6 +95,8 @@ impl Disks<'_> {
     fn crossed(&self, p: u32, q: u32) -> Option<Vec<u32>> {
         let (mut cells, mut crossed, mut next) = (vec![p, q], Vec::new(), 0);
         while let Some(&cell) = cells.get(next) {
+            #[cfg(test)]
+            crate::progress::work_tests::count(crate::progress::work_tests::CELL);
             let star = self.delaunay.star(cell);
             if star.wedges().any(|(a, b)| self.holds(p, q, [cell, a, b])) {
                 return None;

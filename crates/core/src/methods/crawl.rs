@@ -8,8 +8,8 @@ use super::neighborhood::Neighborhood;
 use crate::delaunay::{Delaunay, NONE};
 use crate::edges::{Edges, rows, sort};
 use crate::error::Result;
+use crate::parts::{GRAIN, in_parts, sort_by};
 use crate::progress::{Progress, Stage};
-use rayon::prelude::*;
 
 /// The curves that grow from short edges at both ends, to the nearest neighbor each time.
 ///
@@ -23,31 +23,31 @@ use rayon::prelude::*;
 /// A cancelled `progress`.
 pub fn crawl(delaunay: &Delaunay, progress: &Progress) -> Result<Edges> {
     let count = delaunay.points().len();
-    progress.enter(Stage::Select, count)?;
-    let neighborhood = Neighborhood::new(delaunay);
-    let seeds = seeds(&neighborhood);
-    progress.advance(count / 2)?;
+    progress.enter(Stage::Select, 2 * count)?;
+    let neighborhood = Neighborhood::new(delaunay, progress)?;
+    let seeds = seeds(&neighborhood, progress)?;
     let mut curves = Curves { neighborhood, joined: vec![[NONE; 2]; count] };
     for seed in seeds {
         if [seed.p, seed.q].into_iter().all(|end| curves.degree(end) == 0) {
-            curves.grow(seed);
+            curves.grow(seed, progress)?;
         }
     }
-    progress.advance(0)?;
     Ok(sort(&[curves.edges()], delaunay.input_len()))
 }
 
 /// The edges from points to their nearest, the shortest first.
-fn seeds(neighborhood: &Neighborhood) -> Vec<Ranked> {
+fn seeds(neighborhood: &Neighborhood, progress: &Progress) -> Result<Vec<Ranked>> {
     let delaunay = neighborhood.delaunay;
     let from = |p: u32| {
         let nearest = neighborhood.nearest(p, neighborhood.of(p));
         nearest.into_iter().map(move |q| Ranked::new(delaunay, p, q))
     };
-    let points = (0..delaunay.points().len() as u32).into_par_iter();
-    let mut seeds: Vec<Ranked> = points.flat_map_iter(from).collect();
-    seeds.par_sort_unstable_by(|a, b| a.compare(b, delaunay));
-    seeds
+    let parts = in_parts(delaunay.points().len(), GRAIN, progress, |vertices| {
+        vertices.flat_map(|p| from(p as u32)).collect::<Vec<_>>()
+    })?;
+    let mut seeds = parts.concat();
+    sort_by(&mut seeds, progress, |a, b| a.compare(b, delaunay))?;
+    Ok(seeds)
 }
 
 /// Curves that grow.
@@ -70,7 +70,10 @@ impl Curves<'_> {
     }
 
     /// Grow a curve from `seed` until both ends stop.
-    fn grow(&mut self, seed: Ranked) {
+    ///
+    /// # Errors
+    /// A cancelled `progress`.
+    fn grow(&mut self, seed: Ranked, progress: &Progress) -> Result<()> {
         self.join(seed.p, seed.q);
         let mut ends = vec![seed.p, seed.q];
         loop {
@@ -78,13 +81,14 @@ impl Curves<'_> {
             let shorter = |(a, _): &(Ranked, u32), (b, _): &(Ranked, u32)| {
                 a.compare(b, self.neighborhood.delaunay)
             };
-            let Some((step, from)) = steps.min_by(shorter) else { return };
+            let Some((step, from)) = steps.min_by(shorter) else { return Ok(()) };
             let to = if step.p == from { step.q } else { step.p };
             let was_free = self.degree(to) == 0;
             self.join(from, to);
             // A ring is closed, or another curve, which has stopped, is reached: nothing grows here.
             ends.retain(|&end| end != from && end != to);
             ends.extend(Some(to).filter(|_| was_free));
+            progress.advance(1)?;
         }
     }
 

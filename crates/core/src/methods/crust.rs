@@ -6,17 +6,20 @@
 //! that the smallest candidate meets.
 
 use super::one_step_crust;
+use super::visit::{Part, TooLong, Visit};
 use crate::delaunay::{Delaunay, Edge};
-use crate::edges::{Edges, select};
+use crate::edges::{Edges, rows, select, sort};
 use crate::error::Result;
 use crate::exact::angle::Angle;
 use crate::exact::filter::{self, UNDERFLOW};
 use crate::exact::pencil::{Circle, Disk, Pencil, Vertex};
 use crate::exact::sign::{self, Form, Number};
+use crate::parts::{GRAIN, in_parts};
 use crate::point::{Point, cross, dot, sub};
 use crate::progress::Progress;
+use crate::voronoi::VoronoiVertices;
 use std::cmp::Ordering::{Equal, Greater, Less};
-use std::collections::HashSet;
+use std::sync::{Mutex, PoisonError};
 
 /// The edges with a disk that touches both ends and holds, in its interior, no point and no Voronoi vertex.
 ///
@@ -25,10 +28,40 @@ use std::collections::HashSet;
 /// # Errors
 /// A cancelled `progress`.
 pub fn crust(delaunay: &Delaunay, progress: &Progress) -> Result<Edges> {
-    select(delaunay, progress, Visit::default, |visit, edge| {
+    let late = Mutex::new(Vec::new());
+    let kept = select(delaunay, progress, Visit::limited, |visit, edge| {
         one_step_crust::is_in(delaunay, edge)
-            && matches!(find_disk(delaunay, edge, visit), Verdict::In(_))
-    })
+            && find_disk(delaunay, edge, visit).map_or_else(
+                |TooLong| {
+                    late.lock().unwrap_or_else(PoisonError::into_inner).push(edge);
+                    false
+                },
+                |verdict| verdict.is_in(),
+            )
+    })?;
+    let late = late.into_inner().unwrap_or_else(PoisonError::into_inner);
+    if late.is_empty() { Ok(kept) } else { with_late(delaunay, kept, &late, progress) }
+}
+
+/// The edges `kept`, and those of the `late` ones that are in. Their disks meet so many cells that an index of all Voronoi vertices
+/// takes less time.
+#[cold]
+fn with_late(
+    delaunay: &Delaunay,
+    kept: Edges,
+    late: &[Edge],
+    progress: &Progress,
+) -> Result<Edges> {
+    let index = VoronoiVertices::new(delaunay, progress)?;
+    let mut parts = in_parts(late.len(), GRAIN, &progress.quiet(), |range| {
+        let mut visit = Visit::with_index(&index);
+        let mut is_in =
+            |edge| find_disk(delaunay, edge, &mut visit).is_ok_and(|verdict| verdict.is_in());
+        let found = late[range].iter().filter(|&&edge| is_in(edge));
+        found.map(|edge| rows(delaunay, edge.p, edge.q)).collect()
+    })?;
+    parts.push(kept);
+    Ok(sort(&parts, delaunay.input_len()))
 }
 
 /// How the search for the disk of an edge of the one-step crust ended.
@@ -40,9 +73,18 @@ pub(crate) enum Verdict {
     Out([Option<Vertex>; 2]),
 }
 
+impl Verdict {
+    fn is_in(&self) -> bool {
+        matches!(self, Self::In(_))
+    }
+}
+
+/// A verdict, if the search for it was not given up.
+pub(crate) type Outcome = std::result::Result<Verdict, TooLong>;
+
 /// Look for a disk, the smallest first; each Voronoi vertex found inside rules out a part of the pencil.
 #[inline]
-pub(crate) fn find_disk(delaunay: &Delaunay, edge: Edge, visit: &mut Visit) -> Verdict {
+pub(crate) fn find_disk(delaunay: &Delaunay, edge: Edge, visit: &mut Visit<'_>) -> Outcome {
     let triangles = [(edge.p, edge.q, edge.left), (edge.q, edge.p, edge.right)];
     let own = triangles.into_iter().find_map(|(p, q, apex)| {
         let corners = [p, q, apex?].map(|vertex| delaunay.point(vertex));
@@ -51,20 +93,20 @@ pub(crate) fn find_disk(delaunay: &Delaunay, edge: Edge, visit: &mut Visit) -> V
     if let Some(corners) = own {
         let pencil = Pencil::new(delaunay.point(edge.p), delaunay.point(edge.q));
         let circle = Circle::Through(pencil.vertex(corners));
-        if is_in_cells(delaunay, edge, &pencil, &pencil.disk(circle)) {
-            return Verdict::In(circle);
+        let disk = pencil.disk(circle);
+        if is_in_cells(delaunay, edge, &pencil, &disk) {
+            return Ok(Verdict::In(circle));
         }
-        return search(delaunay, edge, None, visit);
+        return search(delaunay, edge, &pencil, Start::From(disk), visit);
     }
     if smallest_disk_is_in_cells(delaunay, edge) {
-        return Verdict::In(Circle::Smallest);
+        return Ok(Verdict::In(Circle::Smallest));
     }
     let pencil = Pencil::new(delaunay.point(edge.p), delaunay.point(edge.q));
-    let found = visit.find(delaunay, edge, &pencil, Circle::Smallest);
-    if found.is_none() {
-        return Verdict::In(Circle::Smallest);
+    match visit.find(delaunay, edge, &pencil, &pencil.disk(Circle::Smallest))? {
+        None => Ok(Verdict::In(Circle::Smallest)),
+        Some(vertex) => search(delaunay, edge, &pencil, Start::Found(vertex), visit),
     }
-    search(delaunay, edge, found, visit)
 }
 
 /// Is the angle at the third corner about 45° or more? Then the triangle's center is inside the smallest disk of the other two.
@@ -83,14 +125,26 @@ fn is_in_cells(delaunay: &Delaunay, edge: Edge, pencil: &Pencil, disk: &Disk) ->
     })
 }
 
-/// The search in full, from the Voronoi vertex `found` in the smallest disk, if that was tried.
+/// What is known when the full search starts.
+enum Start {
+    /// The disk of one of the edge's own vertices.
+    From(Disk),
+    /// A Voronoi vertex in the smallest disk.
+    Found(Vertex),
+}
+
+/// The search in full.
 fn search(
     delaunay: &Delaunay,
     edge: Edge,
-    mut found: Option<Vertex>,
-    visit: &mut Visit,
-) -> Verdict {
-    let pencil = Pencil::new(delaunay.point(edge.p), delaunay.point(edge.q));
+    pencil: &Pencil,
+    start: Start,
+    visit: &mut Visit<'_>,
+) -> Outcome {
+    let (mut disk, mut found) = match start {
+        Start::From(disk) => (Some(disk), None),
+        Start::Found(vertex) => (None, Some(vertex)),
+    };
     // The angles at the edge's own apexes are acute, so each center is on the side of its triangle.
     let vertex = |corners: [u32; 3]| pencil.vertex(corners.map(|vertex| delaunay.point(vertex)));
     let mut high = edge.left.map(|apex| vertex([edge.p, edge.q, apex]));
@@ -101,14 +155,16 @@ fn search(
             Some(Greater) => high = found,
             Some(Less) => low = found,
             // Between p and q, inside all disks.
-            Some(Equal) => return Verdict::Out([found, None]),
+            Some(Equal) => return Ok(Verdict::Out([found, None])),
         }
         let Some(circle) = pencil.smallest_between(low, high) else {
-            return Verdict::Out([low, high]);
+            return Ok(Verdict::Out([low, high]));
         };
-        found = visit.find(delaunay, edge, &pencil, circle);
+        let known = disk.take().filter(|disk| disk.is_inside(&circle));
+        let known = known.unwrap_or_else(|| pencil.disk(circle));
+        found = visit.find(delaunay, edge, pencil, &known)?;
         if found.is_none() {
-            return Verdict::In(circle);
+            return Ok(Verdict::In(circle));
         }
     }
 }
@@ -182,202 +238,5 @@ impl Form<2> for RoomBehind {
     fn value<T: Number>(&self, [d, g]: &[[T; 2]; 2]) -> T {
         let room = sign::dot(g, &sign::difference(g, d));
         room.times(&room).minus(&sign::dot(d, d).times(&sign::dot(g, g)))
-    }
-}
-
-/// A walk over the Voronoi cells that meet a disk, and its memory.
-#[derive(Default)]
-pub struct Visit {
-    cells: Vec<u32>,
-    many: HashSet<u32>,
-}
-
-/// Cells up to which a list is searched faster than a hash table.
-const FEW: usize = 24;
-
-impl Visit {
-    /// A Voronoi vertex strictly inside `circle`, if there is one.
-    ///
-    /// Visits the cells of p and q and crosses each Voronoi edge that may meet the disk. The disk is connected, so this
-    /// reaches every cell that meets it, and with them every Voronoi vertex inside.
-    fn find(
-        &mut self,
-        delaunay: &Delaunay,
-        edge: Edge,
-        pencil: &Pencil,
-        circle: Circle,
-    ) -> Option<Vertex> {
-        let disk = pencil.disk(circle);
-        self.cells.clear();
-        self.many.clear();
-        self.cells.extend([edge.p, edge.q]);
-        let mut next = 0;
-        while next < self.cells.len() {
-            let cell = self.cells[next];
-            let other = [edge.q, edge.p].get(next).map(|&end| delaunay.point(end));
-            let part = Part::new(&disk, pencil, delaunay.point(cell), other);
-            let found = self.search_cell(delaunay, next, pencil, &part);
-            if found.is_some() {
-                return found;
-            }
-            next += 1;
-        }
-        None
-    }
-
-    /// Look at the corners of cell number `number` of the visit; add the cells behind the sides that the disk crosses.
-    ///
-    /// A corner is on two bisectors, so both must meet the disk; and it is of three cells: those of earlier cells are known.
-    fn search_cell(
-        &mut self,
-        delaunay: &Delaunay,
-        number: usize,
-        pencil: &Pencil,
-        part: &Part<'_>,
-    ) -> Option<Vertex> {
-        let star = delaunay.star(self.cells[number]);
-        let count = star.neighbors.len();
-        let side = |k: usize| Side::new(part, star.neighbors[k], delaunay.point(star.neighbors[k]));
-        let last = side(count.checked_sub(1)?);
-        let (mut before, mut this) = (last, if count > 1 { side(0) } else { last });
-        for k in 0..count {
-            let after = if k + 1 < count { side(k + 1) } else { side(0) };
-            if this.is_near {
-                let is_corner = before.is_near && (k > 0 || !star.on_hull);
-                if is_corner && !self.was_at(number, before.neighbor, this.neighbor) {
-                    let vertex = pencil.vertex([part.site, before.point, this.point]);
-                    if pencil.holds(part.disk, &vertex) {
-                        return Some(vertex);
-                    }
-                }
-                if part.may_cross(&this, [&before, &after]) {
-                    self.add(this.neighbor);
-                }
-            }
-            (before, this) = (this, after);
-        }
-        None
-    }
-
-    /// Was one of two cells visited before cell number `number`?
-    fn was_at(&self, number: usize, one: u32, other: u32) -> bool {
-        number <= FEW && self.cells[..number].iter().any(|&cell| cell == one || cell == other)
-    }
-
-    fn add(&mut self, cell: u32) {
-        let is_new = if self.cells.len() <= FEW {
-            !self.cells.contains(&cell)
-        } else {
-            if self.many.is_empty() {
-                self.many.extend(&self.cells);
-            }
-            self.many.insert(cell)
-        };
-        if is_new {
-            self.cells.push(cell);
-        }
-    }
-}
-
-/// The part of a disk that can be in the cell of `site`: all of it, or in the cells of p and q the nearer half.
-struct Part<'a> {
-    disk: &'a Disk,
-    site: Point,
-    /// The center relative to the site.
-    center: Point,
-    /// More than the rounding errors of the distances below.
-    doubt: f64,
-    half: Option<Half>,
-    /// The apex of the edge's own triangle whose center the circle goes through.
-    apex: Option<Point>,
-}
-
-/// The bisector of a cell's site and a neighbor.
-#[derive(Clone, Copy)]
-struct Side {
-    neighbor: u32,
-    point: Point,
-    /// Can a point of the part be nearer to the neighbor than to the site?
-    is_near: bool,
-}
-
-impl Side {
-    #[inline]
-    fn new(part: &Part<'_>, neighbor: u32, point: Point) -> Self {
-        Self { neighbor, point, is_near: part.may_reach(point) }
-    }
-}
-
-/// The half of a disk that is nearer to one end of the edge.
-struct Half {
-    /// The vector to the other end.
-    chord: Point,
-    /// The disk's radius over the length of the chord.
-    ratio: f64,
-}
-
-impl<'a> Part<'a> {
-    /// The part of `disk` in the cell of `site`; `other` is the other end of the edge, if `site` is one.
-    fn new(disk: &'a Disk, pencil: &Pencil, site: Point, other: Option<Point>) -> Self {
-        let center = sub(disk.center, sub(site, pencil.p));
-        let size = center[0].abs() + center[1].abs() + disk.radius;
-        let half = other.map(|other| {
-            let chord = sub(other, site);
-            Half { chord, ratio: disk.radius / dot(chord, chord).sqrt() }
-        });
-        let apex = pencil.own_apex(disk);
-        Self { disk, site, center, doubt: 1e-14 * size + 2.0 * disk.error, half, apex }
-    }
-
-    /// Can the disk cross the cell's `side`, given that it holds none of its ends? False only if it certainly does not.
-    ///
-    /// It meets the line of the side around the foot of its center, so if the foot is beyond an end, on the other side of the
-    /// bisector `beside` it, all between that end and the disk's part of the line is outside of the cell.
-    #[inline]
-    fn may_cross(&self, side: &Side, beside: [&Side; 2]) -> bool {
-        let g = sub(side.point, self.site);
-        let far = dot(g, g);
-        if far < UNDERFLOW {
-            return true;
-        }
-        let step = (far / 2.0 - dot(self.center, g)) / far;
-        let foot = [self.center[0] + step * g[0], self.center[1] + step * g[1]];
-        let doubt = 4.0 * self.doubt + 1e-13 * (g[0].abs() + g[1].abs());
-        beside.iter().all(|other| {
-            let h = sub(other.point, self.site);
-            let span = h[0].abs() + h[1].abs();
-            let beyond = dot(foot, h) - dot(h, h) / 2.0 - (doubt + 1e-13 * span) * span;
-            // An unknown (not a number) counts as crossing.
-            beyond.is_nan() || beyond <= UNDERFLOW
-        })
-    }
-
-    /// Can a point of this part be nearer to `neighbor` than to the site? False only if certainly none is.
-    #[inline]
-    fn may_reach(&self, neighbor: Point) -> bool {
-        let g = sub(neighbor, self.site);
-        let span = g[0].abs() + g[1].abs();
-        let far = dot(g, g);
-        let ahead = self.half.as_ref().filter(|half| half.faces(g, span));
-        if ahead.is_some() && self.apex == Some(neighbor) {
-            // The half disk ends on the bisector of p and q, there at that center, which is on this bisector, too.
-            return false;
-        }
-        let width = match ahead {
-            Some(half) => half.ratio * cross(half.chord, g).abs(),
-            // Where the direction is in doubt the whole disk serves, for it reaches no less.
-            None => self.disk.radius * far.sqrt(),
-        };
-        let reach = dot(self.center, g) + width + (self.doubt + 1e-14 * span) * span + UNDERFLOW;
-        // An unknown (not a number) counts as reaching.
-        reach.is_nan() || reach > far / 2.0
-    }
-}
-
-impl Half {
-    /// Does `g`, whose coordinates sum to `span`, certainly point to the other half?
-    #[inline]
-    fn faces(&self, g: Point, span: f64) -> bool {
-        dot(self.chord, g) > 1e-14 * span * (self.chord[0].abs() + self.chord[1].abs())
     }
 }

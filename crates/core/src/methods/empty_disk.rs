@@ -1,7 +1,8 @@
 //! The disk that shows why an edge is in the crust, for pictures.
 
-use super::crust::{Verdict, Visit, find_disk};
+use super::crust::{Verdict, find_disk};
 use super::one_step_crust;
+use super::visit::Visit;
 use crate::adjacency::vertices_of_rows;
 use crate::delaunay::{Delaunay, Edge};
 use crate::exact::pencil::{Circle, Pencil};
@@ -15,7 +16,9 @@ pub fn empty_disk(delaunay: &Delaunay, rows: [u32; 2]) -> Option<(Point, f64)> {
     if !one_step_crust::is_in(delaunay, edge) {
         return None;
     }
-    let Verdict::In(circle) = find_disk(delaunay, edge, &mut Visit::default()) else { return None };
+    let Ok(Verdict::In(circle)) = find_disk(delaunay, edge, &mut Visit::default()) else {
+        return None;
+    };
     Some(unscaled(delaunay, edge, circle))
 }
 

@@ -11,6 +11,7 @@ use crate::edges::{Edges, rows, select, sort};
 use crate::error::{Error, Result};
 use crate::exact::angle_bound::AngleBound;
 use crate::forbidden_region::ForbiddenRegion;
+use crate::memory::Growing;
 use crate::parts::in_parts;
 use crate::progress::{Progress, Stage};
 use crate::space::bounds::Bounds;
@@ -58,7 +59,7 @@ pub(super) fn gamma_of(
         Less => {
             let regions = [(a, b), (b, a)].map(|(left, right)| ForbiddenRegion { left, right });
             let boxes = Boxes::new(delaunay.points(), |&p| Bounds::at(p));
-            Pairs { delaunay, regions, boxes }.select(progress)
+            Pairs { delaunay, regions, boxes, found: Growing::default() }.select(progress)
         }
     }
 }
@@ -86,6 +87,7 @@ struct Pairs<'a> {
     delaunay: &'a Delaunay,
     regions: [ForbiddenRegion<'a>; 2],
     boxes: Boxes,
+    found: Growing,
 }
 
 impl Pairs<'_> {
@@ -95,13 +97,21 @@ impl Pairs<'_> {
         let count = self.delaunay.points().len();
         progress.enter(Stage::Select, count)?;
         let parts = in_parts(count, GRAIN, progress, |vertices| {
-            vertices.flat_map(|p| self.edges_from(p as u32)).collect()
+            let mut edges = Edges::new();
+            for p in vertices {
+                let more = self.edges_from(p as u32, progress);
+                self.found.add(more.len(), size_of::<[u32; 2]>())?;
+                edges.extend(more);
+                progress.advance(0)?;
+            }
+            Ok(edges)
         })?;
+        let parts = parts.into_iter().collect::<Result<Vec<_>>>()?;
         Ok(sort(&parts, self.delaunay.input_len()))
     }
 
-    /// The edges from `p` to vertices of larger number, as rows.
-    fn edges_from(&self, p: u32) -> Edges {
+    /// The edges from `p` to vertices of larger number, as rows; some of them only if the call is cancelled.
+    fn edges_from(&self, p: u32, progress: &Progress) -> Edges {
         let blockers = self.delaunay.star(p).neighbors.to_vec();
         let blockers = RefCell::new([blockers.clone(), blockers]);
         let mut edges = Edges::new();
@@ -116,7 +126,7 @@ impl Pairs<'_> {
                 if q > p && (0..2).any(|k| self.is_empty(k, p, q, &mut blockers[k])) {
                     edges.push(rows(self.delaunay, p, q));
                 }
-                false
+                progress.is_cancelled()
             },
         );
         edges

@@ -19,7 +19,7 @@ use crate::progress::Progress;
 /// # Errors
 /// A cancelled `progress`.
 pub fn hnn_crust(delaunay: &Delaunay, progress: &Progress) -> Result<Edges> {
-    let neighborhood = Neighborhood::new(delaunay);
+    let neighborhood = Neighborhood::new(delaunay, progress)?;
     let is_in_half = |p: u32, q: u32, s: u32| {
         let [p, q, s] = [p, q, s].map(|vertex| delaunay.point(vertex));
         s != q && compare_distances(s, p, q).is_le()

@@ -1,9 +1,12 @@
 //! Lengths of edges, compared exactly.
 
-use crate::delaunay::Delaunay;
+use crate::delaunay::{Delaunay, Edge};
+use crate::error::Result;
 use crate::exact::filter;
 use crate::exact::sign::{self, Form, Number, exact_sign};
+use crate::parts::{GRAIN, in_parts};
 use crate::point::{Point, dot, lexicographic, sub};
+use crate::progress::Progress;
 use std::cmp::Ordering;
 
 /// The distance from `p` to `a`, compared with that to `b`.
@@ -50,6 +53,8 @@ impl Ranked {
 
     /// The order by length, then by the smaller end, then by the other.
     pub fn compare(&self, other: &Self, delaunay: &Delaunay) -> Ordering {
+        #[cfg(test)]
+        crate::progress::work_tests::count(crate::progress::work_tests::COMPARISON);
         let ends = |edge: &Self| [delaunay.point(edge.p), delaunay.point(edge.q)];
         let (a, b) = (ends(self), ends(other));
         let by_ends = || lexicographic(&a[0], &b[0]).then_with(|| lexicographic(&a[1], &b[1]));
@@ -64,6 +69,23 @@ impl Ranked {
         filter::sign(difference, 5, self.square + other.square, 1.0)
             .unwrap_or_else(|| exact_sign(&Longer, p, &[q, r, s]))
     }
+}
+
+/// The edges of the triangulation that `keep` keeps, ranked, in no order.
+///
+/// # Errors
+/// A cancelled `progress`.
+pub(super) fn ranked(
+    delaunay: &Delaunay,
+    progress: &Progress,
+    keep: impl Fn(Edge) -> bool + Sync,
+) -> Result<Vec<Ranked>> {
+    let parts = in_parts(delaunay.points().len(), GRAIN, progress, |vertices| {
+        let edges = vertices.flat_map(|p| delaunay.edges_from(p as u32));
+        let kept = edges.filter(|&edge| keep(edge));
+        kept.map(|edge| Ranked::new(delaunay, edge.p, edge.q)).collect::<Vec<_>>()
+    })?;
+    Ok(parts.concat())
 }
 
 /// The squared distance, and whether no rounding was needed; lattices have many equally long edges.

@@ -3,13 +3,13 @@
 //! J. B. Kruskal, "On the shortest spanning subtree of a graph and the traveling salesman problem",
 //! Proceedings of the American Mathematical Society 7 (1956), on the Delaunay edges.
 
-use super::length::Ranked;
+use super::length::ranked;
 use crate::delaunay::Delaunay;
 use crate::edges::{Edges, rows, sort};
 use crate::error::Result;
 use crate::forest::Forest;
-use crate::progress::{Progress, Stage};
-use rayon::prelude::*;
+use crate::parts::sort_by;
+use crate::progress::{PACE, Progress, Stage};
 
 /// The shortest tree that joins all points.
 ///
@@ -21,14 +21,16 @@ use rayon::prelude::*;
 /// A cancelled `progress`.
 pub fn minimum_spanning_tree(delaunay: &Delaunay, progress: &Progress) -> Result<Edges> {
     let count = delaunay.points().len();
-    progress.enter(Stage::Select, count)?;
-    let mut candidates: Vec<Ranked> =
-        delaunay.edges().map(|edge| Ranked::new(delaunay, edge.p, edge.q)).collect();
-    candidates.par_sort_unstable_by(|a, b| a.compare(b, delaunay));
-    progress.advance(count / 2)?;
+    // Of a planar graph with three edges a point.
+    progress.enter(Stage::Select, 4 * count)?;
+    let mut candidates = ranked(delaunay, progress, |_| true)?;
+    sort_by(&mut candidates, progress, |a, b| a.compare(b, delaunay))?;
     let mut forest = Forest::new(count);
-    candidates.retain(|candidate| forest.join(candidate.p, candidate.q));
-    progress.advance(0)?;
-    let tree = candidates.iter().map(|edge| rows(delaunay, edge.p, edge.q)).collect();
+    let mut tree = Edges::with_capacity(count);
+    for part in candidates.chunks(PACE) {
+        let joining = part.iter().filter(|edge| forest.join(edge.p, edge.q));
+        tree.extend(joining.map(|edge| rows(delaunay, edge.p, edge.q)));
+        progress.advance(part.len())?;
+    }
     Ok(sort(&[tree], delaunay.input_len()))
 }

@@ -5,9 +5,8 @@ use crate::cocircular::diagonals;
 use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, rows, sort};
 use crate::error::Result;
-use crate::parts::{GRAIN, in_parts};
+use crate::parts::{GRAIN, in_parts, map, sort_by};
 use crate::progress::{Progress, Stage};
-use rayon::prelude::*;
 use std::cmp::Ordering::Equal;
 
 /// The closed Delaunay graph, seen from its points.
@@ -20,11 +19,15 @@ pub(super) struct Neighborhood<'a> {
 
 impl<'a> Neighborhood<'a> {
     /// The neighbors of all points.
-    pub fn new(delaunay: &'a Delaunay) -> Self {
+    ///
+    /// # Errors
+    /// Too little memory for ties, or a cancelled `progress`.
+    pub fn new(delaunay: &'a Delaunay, progress: &Progress) -> Result<Self> {
         let both = |edge: Edge| [(edge.p, edge.q), (edge.q, edge.p)];
-        let mut tied: Vec<_> = diagonals(delaunay).into_iter().flat_map(both).collect();
-        tied.par_sort_unstable();
-        Self { delaunay, tied }
+        let diagonals = diagonals(delaunay, progress)?;
+        let mut tied: Vec<_> = diagonals.into_iter().flat_map(both).collect();
+        sort_by(&mut tied, progress, Ord::cmp)?;
+        Ok(Self { delaunay, tied })
     }
 
     /// The neighbors of `p`; those that tie in the triangulation may come twice.
@@ -76,7 +79,16 @@ pub(super) fn collect<I: IntoIterator<Item = u32>>(
 ) -> Result<Edges> {
     let count = delaunay.points().len();
     progress.enter(Stage::Select, count)?;
-    let parts = in_parts(count, GRAIN, progress, |vertices| {
+    edges_to(delaunay, progress, ends)
+}
+
+/// The same within a stage.
+fn edges_to<I: IntoIterator<Item = u32>>(
+    delaunay: &Delaunay,
+    progress: &Progress,
+    ends: impl Fn(u32) -> I + Sync,
+) -> Result<Edges> {
+    let parts = in_parts(delaunay.points().len(), GRAIN, progress, |vertices| {
         let from = |p| ends(p).into_iter().map(move |q| rows(delaunay, p, q));
         vertices.flat_map(|p| from(p as u32)).collect()
     })?;
@@ -94,9 +106,10 @@ pub(super) fn mutual(
     progress: &Progress,
     asked_for: impl Fn(u32) -> Vec<u32> + Sync + Send,
 ) -> Result<Edges> {
-    let asked: Vec<Vec<u32>> =
-        (0..delaunay.points().len() as u32).into_par_iter().map(asked_for).collect();
-    collect(delaunay, progress, |p| {
+    let count = delaunay.points().len();
+    progress.enter(Stage::Select, 2 * count)?;
+    let asked = map(count, Vec::new(), progress, |p| asked_for(p as u32))?;
+    edges_to(delaunay, progress, |p| {
         let asked = &asked;
         let is_mutual = move |&q: &u32| q > p && asked[q as usize].contains(&p);
         asked[p as usize].iter().copied().filter(is_mutual)

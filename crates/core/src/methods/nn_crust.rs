@@ -18,7 +18,7 @@ use std::cmp::Ordering::Greater;
 /// # Errors
 /// A cancelled `progress`.
 pub fn nn_crust(delaunay: &Delaunay, progress: &Progress) -> Result<Edges> {
-    let neighborhood = Neighborhood::new(delaunay);
+    let neighborhood = Neighborhood::new(delaunay, progress)?;
     let is_behind = |p: u32, q: u32, s: u32| {
         let [p, q, s] = [p, q, s].map(|vertex| delaunay.point(vertex));
         sign::sign(&sign::Dot, p, &[q, s]) != Greater

@@ -5,13 +5,13 @@
 //! graph of R. B. Urquhart, "Algorithms for Computation of Relative Neighbourhood Graph",
 //! Electronics Letters 16 (1980).
 
-use super::length::{Ranked, compare_distances};
+use super::length::{Ranked, compare_distances, ranked};
 use crate::cocircular::{corners, is_tied};
 use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, rows, sort};
 use crate::error::Result;
-use crate::progress::{Progress, Stage};
-use rayon::prelude::*;
+use crate::parts::sort_by;
+use crate::progress::{PACE, Progress, Stage};
 
 /// The edges that are longest in no Delaunay triangle, less those peeled off points of more than two.
 ///
@@ -24,19 +24,13 @@ use rayon::prelude::*;
 /// A cancelled `progress`.
 pub fn peel(delaunay: &Delaunay, progress: &Progress) -> Result<Edges> {
     let count = delaunay.points().len();
-    progress.enter(Stage::Select, count)?;
-    let candidates: Vec<Edge> = delaunay.edges().collect();
-    let rank = |edge: &Edge| Ranked::new(delaunay, edge.p, edge.q);
-    let mut kept: Vec<Ranked> = candidates
-        .par_iter()
-        .filter(|&&edge| !is_tied(delaunay, edge) && !is_longest(delaunay, edge))
-        .map(rank)
-        .collect();
-    kept.par_sort_unstable_by(|a, b| b.compare(a, delaunay));
-    progress.advance(count / 2)?;
+    progress.enter(Stage::Select, 2 * count)?;
+    let is_short = |edge| !is_tied(delaunay, edge) && !is_longest(delaunay, edge);
+    let mut kept = ranked(delaunay, progress, is_short)?;
+    sort_by(&mut kept, progress, |a, b| b.compare(a, delaunay))?;
     let mut degrees = vec![0u32; count];
     kept.iter().flat_map(|edge| [edge.p, edge.q]).for_each(|end| degrees[end as usize] += 1);
-    kept.retain(|edge| {
+    let mut stays = |edge: &&Ranked| {
         let ends = [edge.p, edge.q].map(|vertex| vertex as usize);
         let stays = ends.iter().all(|&end| degrees[end] <= 2);
         if !stays {
@@ -44,8 +38,13 @@ pub fn peel(delaunay: &Delaunay, progress: &Progress) -> Result<Edges> {
             degrees[ends[1]] -= 1;
         }
         stays
-    });
-    let edges = kept.iter().map(|edge| rows(delaunay, edge.p, edge.q)).collect();
+    };
+    let mut edges = Edges::new();
+    for part in kept.chunks(PACE) {
+        let staying = part.iter().filter(&mut stays);
+        edges.extend(staying.map(|edge| rows(delaunay, edge.p, edge.q)));
+        progress.advance(part.len() / 2)?;
+    }
     Ok(sort(&[edges], delaunay.input_len()))
 }
 

@@ -10,9 +10,9 @@ use crate::delaunay::{Delaunay, Edge};
 use crate::edges::Edges;
 use crate::error::Result;
 use crate::exact::sign::{self, Form, Number};
+use crate::parts::map;
 use crate::point::{length, sub};
 use crate::progress::Progress;
-use rayon::prelude::*;
 use std::cmp::Ordering::Greater;
 
 /// The edges of the closed Delaunay graph no longer than the distances of their ends to their nearest, summed.
@@ -23,13 +23,12 @@ use std::cmp::Ordering::Greater;
 /// # Errors
 /// A cancelled `progress`.
 pub fn sig_delaunay(delaunay: &Delaunay, progress: &Progress) -> Result<Edges> {
-    let neighborhood = Neighborhood::new(delaunay);
+    let neighborhood = Neighborhood::new(delaunay, progress)?;
     let first = |p: u32| {
         let nearest = neighborhood.nearest(p, delaunay.star(p).neighbors.iter().copied());
         nearest.first().copied().unwrap_or(p)
     };
-    let nearest: Vec<u32> =
-        (0..delaunay.points().len() as u32).into_par_iter().map(first).collect();
+    let nearest = map(delaunay.points().len(), 0, &progress.quiet(), |p| first(p as u32))?;
     let meet = |edge: Edge| {
         let ends = [edge.p, edge.q];
         spheres_meet(delaunay, ends, ends.map(|vertex| nearest[vertex as usize]))

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use std::ops::Range;
 
 /// Items in a leaf, and nodes under a node.
-const FAN: usize = 8;
+pub(super) const FAN: usize = 8;
 
 /// The hierarchy.
 #[derive(Debug, Default)]
@@ -71,6 +71,8 @@ impl Boxes {
         enter: &mut impl FnMut(&Bounds, Range<u32>) -> bool,
         visit: &mut impl FnMut(u32) -> bool,
     ) -> bool {
+        #[cfg(test)]
+        crate::progress::work_tests::count(crate::progress::work_tests::BOX);
         if !enter(&self.levels[level][node as usize], self.range(level, node)) {
             return false;
         }

@@ -1,7 +1,8 @@
-//! Where things are: rectangles, boxes over points, a tree of segments, and the order of points along a curve.
+//! Where things are: rectangles, boxes over points, a tree of segments, and orders in which near things follow each other.
 
 pub mod bounds;
 pub mod boxes;
+pub mod halves;
 pub mod order;
 pub mod segment;
 pub mod tree;

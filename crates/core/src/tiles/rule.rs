@@ -73,23 +73,25 @@ pub trait Work {
 pub struct Crust;
 
 impl Rule for Crust {
-    type Memory = Visit;
+    type Memory = Visit<'static>;
 
     /// In by a disk: final once all of its influence is seen. Out by Voronoi vertices: once each is seen to be one.
-    fn find(&self, delaunay: &Delaunay, edge: Edge, visit: &mut Visit) -> Finding {
+    fn find(&self, delaunay: &Delaunay, edge: Edge, visit: &mut Visit<'static>) -> Finding {
         if !is_in_one_step_crust(delaunay, edge) {
             return Finding::OUT;
         }
         let pencil = pencil(delaunay, edge);
         match find_disk(delaunay, edge, visit) {
-            Verdict::In(circle) => {
+            Ok(Verdict::In(circle)) => {
                 let influence = Disk::influence(&pencil, circle);
                 Finding { is_in: true, rests_on: [Some(influence), None] }
             }
-            Verdict::Out(vertices) => {
+            Ok(Verdict::Out(vertices)) => {
                 let disk = |vertex: Option<Vertex>| vertex.and_then(|v| disk_of(&pencil, &v));
                 Finding { is_in: false, rests_on: vertices.map(disk) }
             }
+            // A visit of tiles has no limit.
+            Err(_) => Finding::OUT,
         }
     }
 

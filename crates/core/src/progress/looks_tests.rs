@@ -1,0 +1,181 @@
+//! When calls look whether to stop: often, and no look is in vain.
+
+use super::Progress;
+use crate::adjacency::Adjacency;
+use crate::delaunay::Delaunay;
+use crate::edges::Edges;
+use crate::error::{Error, Result};
+use crate::interpolant::Interpolant;
+use crate::point::Point;
+use crate::{certify, medial_axis, methods, nesting, trace};
+use std::panic::Location;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+/// The longest time between two looks, and where the second was.
+#[derive(Debug, Clone, Copy, Default)]
+struct Longest {
+    looks: usize,
+    last: Option<Instant>,
+    time: Duration,
+    place: Option<&'static Location<'static>>,
+}
+
+/// The looks of a call.
+#[derive(Debug, Default)]
+pub struct Looks(Mutex<Longest>);
+
+impl Looks {
+    #[track_caller]
+    pub fn note(&self) {
+        let (now, mut state) = (Instant::now(), self.0.lock().expect("no one panics"));
+        let gap = state.last.map_or(Duration::ZERO, |last| now - last);
+        if gap > state.time {
+            (state.time, state.place) = (gap, Some(Location::caller()));
+        }
+        state.last = Some(now);
+        state.looks += 1;
+    }
+
+    fn count(&self) -> usize {
+        self.0.lock().expect("no one panics").looks
+    }
+}
+
+/// The longest time that `call` works without a look, and where that ended.
+fn longest(call: &impl Fn(&Progress) -> Result<()>) -> (Duration, String) {
+    let progress = Progress::default();
+    let start = progress.looks.0.lock().map(|mut state| state.last = Some(Instant::now()));
+    start.expect("no one panics");
+    call(&progress).expect("no one cancels");
+    progress.looks.note();
+    let state = *progress.looks.0.lock().expect("no one panics");
+    (state.time, format!("{:?}", state.place))
+}
+
+const SIZE: usize = 100_000;
+
+/// Points of two kinds: at random, with a curve of the same number around them, and a lattice, which is all ties.
+fn points(lattice: bool) -> Vec<Point> {
+    let random = |k: usize, prime: usize| (k * prime % 1_000_003) as f64 / 1_000_003.0;
+    let half = SIZE / 2;
+    let at = |k: usize| match (lattice, k < half) {
+        (true, _) => [(k % 300) as f64, (k / 300) as f64],
+        (false, true) => [random(k, 611_953), random(k, 379_721)],
+        (false, false) => {
+            let (sin, cos) = (std::f64::consts::TAU * k as f64 / half as f64).sin_cos();
+            [3.0 * cos, 2.0 * sin]
+        }
+    };
+    (0..SIZE).map(at).collect()
+}
+
+type Call<'a> = (&'static str, Box<dyn Fn(&Progress) -> Result<()> + Sync + 'a>);
+
+const METHODS: [(&str, &[f64]); 18] = [
+    ("alpha-shape", &[0.01]),
+    ("beta-skeleton", &[1.7, 0.0]),
+    ("beta-skeleton", &[1.7, 1.0]),
+    ("compatible-crust", &[-1.0]),
+    ("conservative-crust", &[1.0]),
+    ("crawl", &[]),
+    ("crossing-angle-graph", &[0.5]),
+    ("crust", &[]),
+    ("gabriel", &[]),
+    ("gathan", &[0.5, 1.0]),
+    ("hnn-crust", &[]),
+    ("minimum-spanning-tree", &[]),
+    ("nn-crust", &[]),
+    ("one-step-crust", &[]),
+    ("peel", &[]),
+    ("rcgh", &[]),
+    ("relative-neighborhood", &[]),
+    ("sig-delaunay", &[]),
+];
+
+fn calls<'a>(points: &'a [Point], delaunay: &'a Delaunay, edges: &'a Edges) -> Vec<Call<'a>> {
+    let mut calls: Vec<Call<'a>> = Vec::new();
+    for (name, parameters) in METHODS {
+        let call = |p: &Progress| methods::select(delaunay, name, parameters, p).map(|_| ());
+        calls.push((name, Box::new(call)));
+    }
+    let curve = Adjacency::new(delaunay, edges);
+    let compare =
+        move |p: &Progress| methods::is_beta_skeleton(delaunay, 1.7, &curve, p).map(|_| ());
+    calls.push(("is-beta-skeleton", Box::new(compare)));
+    calls.push(("triangulate", Box::new(move |p: &Progress| Delaunay::new(points, p).map(|_| ()))));
+    calls.push((
+        "medial-axis",
+        Box::new(move |p: &Progress| medial_axis::medial_axis(delaunay, edges, p).map(|_| ())),
+    ));
+    calls.push((
+        "certify",
+        Box::new(move |p: &Progress| {
+            let interpolant = Interpolant::new(delaunay, edges, p)?;
+            certify::measure(delaunay, edges, &interpolant, p).map(|_| ())
+        }),
+    ));
+    calls.push((
+        "trace",
+        Box::new(move |p: &Progress| {
+            let curves = trace::trace(points, edges, p)?;
+            nesting::shells(points, &curves, p).map(|_| ())
+        }),
+    ));
+    calls
+}
+
+/// So that Ctrl-C is heard within 0.2 s at two million points, no call may work longer than a tenth of a triangulation. On a machine
+/// that has nothing else to do.
+#[test]
+#[ignore = "measures time"]
+fn no_call_works_long_between_two_looks_at_whether_to_stop() {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let late: Vec<String> = pool.install(|| [false, true].into_iter().flat_map(late).collect());
+    assert!(late.is_empty(), "{}", late.join("\n"));
+}
+
+/// The calls that work longer, and where.
+fn late(lattice: bool) -> Vec<String> {
+    let (points, quiet) = (points(lattice), Progress::default());
+    let start = Instant::now();
+    let delaunay = Delaunay::new(&points, &quiet).expect("points");
+    let unit = start.elapsed();
+    let edges = methods::crust(&delaunay, &quiet).expect("no one cancels");
+    let told = |(name, call): Call<'_>| {
+        // Another program may come in between; not in every one of some runs.
+        let (time, place) = (0..3).map(|_| longest(&call)).min()?;
+        let share = time.as_secs_f64() / unit.as_secs_f64();
+        (share > 0.1).then(|| format!("{name}: {share:.2} at {place}"))
+    };
+    calls(&points, &delaunay, &edges).into_iter().filter_map(told).collect()
+}
+
+#[test]
+fn every_call_looks_often() {
+    let points = &points(false)[SIZE / 2 - 20_000..SIZE / 2 + 20_000];
+    let quiet = Progress::default();
+    let delaunay = Delaunay::new(points, &quiet).expect("points");
+    let edges = methods::crust(&delaunay, &quiet).expect("no one cancels");
+    for (name, call) in calls(points, &delaunay, &edges) {
+        let progress = Progress::default();
+        call(&progress).expect("no one cancels");
+        let looks = progress.looks.count();
+        // Curves are traced in passes of half a million.
+        let least = if name == "trace" { 3 } else { points.len() / crate::parts::GRAIN };
+        assert!(looks >= least, "{name} looks {looks} times");
+    }
+}
+
+#[test]
+fn every_call_stops_when_asked_to() {
+    let points = &points(false)[..20_000];
+    let quiet = Progress::default();
+    let delaunay = Delaunay::new(points, &quiet).expect("points");
+    let edges = methods::crust(&delaunay, &quiet).expect("no one cancels");
+    for (name, call) in calls(points, &delaunay, &edges) {
+        let progress = Progress::default();
+        progress.cancel();
+        assert_eq!(call(&progress), Err(Error::Cancelled), "{name}");
+    }
+}

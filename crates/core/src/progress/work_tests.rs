@@ -1,0 +1,160 @@
+//! Work counted where it is done, in about nanoseconds, so that speed can be tested on any machine; and nearly degenerate points, on
+//! which no method may work more than ten times as much as on points in general position.
+
+use crate::adjacency::Adjacency;
+use crate::delaunay::Delaunay;
+use crate::interpolant::Interpolant;
+use crate::point::Point;
+use crate::progress::Progress;
+use crate::{certify, medial_axis, methods};
+use std::cell::Cell;
+use std::f64::consts::TAU;
+
+/// Looking at a Voronoi cell.
+pub const CELL: usize = 100;
+/// Looking at a box.
+pub const BOX: usize = 10;
+/// Comparing two lengths.
+pub const COMPARISON: usize = 10;
+/// A sign that a first filter cannot tell, for each bit of the integers it may take.
+pub const BIT: usize = 1;
+/// The same in integers of any size.
+pub const BIG_BIT: usize = 10;
+
+thread_local! {
+    static DONE: Cell<usize> = const { Cell::new(0) };
+}
+
+pub fn count(work: usize) {
+    DONE.set(DONE.get() + work);
+}
+
+const SIZE: usize = 3000;
+
+/// A number between −1 and 1, a different one for each `k`.
+fn random(k: usize) -> f64 {
+    let mut x = (k as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((x ^ (x >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+}
+
+/// `p` moved by up to `noise` of its coordinates.
+fn moved(k: usize, [x, y]: Point, noise: f64) -> Point {
+    [x * (1.0 + noise * random(2 * k)), y * (1.0 + noise * random(2 * k + 1))]
+}
+
+fn circle(k: usize, count: usize, radius: f64) -> Point {
+    let (sin, cos) = (TAU * (k % count) as f64 / count as f64).sin_cos();
+    [radius * cos, radius * sin]
+}
+
+fn flower(k: usize, count: usize) -> Point {
+    circle(k, count, 30.0 + 5.0 * (5.0 * TAU * (k % count) as f64 / count as f64).sin())
+}
+
+/// Point `k` of a family at relative distance `d`.
+type Family = (&'static str, fn(usize, f64) -> Point);
+
+const FAMILIES: [Family; 11] = [
+    ("pairs", |k, d| {
+        let (number, turn) = (k / 2, (k % 2) as f64);
+        moved(k, [2.0 + random(7 * number), 2.0 + random(7 * number + 3)], d * turn)
+    }),
+    ("two exports of an outline", |k, d| moved(k, flower(k / 2, SIZE / 2), d * (k % 2) as f64)),
+    ("two scales of an outline", |k, d| {
+        flower(k / 2, SIZE / 2).map(|x| x * (1.0 + d * (k % 2) as f64))
+    }),
+    ("lattice", |k, d| moved(k, [(1 + k % 54) as f64, (1 + k / 54) as f64], d)),
+    ("one circle", |k, d| moved(k, circle(k, SIZE, 1.0), d)),
+    ("concentric circles", |k, d| circle(k / 2, SIZE / 2, 1.0 + d * (k % 2) as f64)),
+    ("clusters", |k, d| {
+        let center = k / 10;
+        moved(k, [2.0 + random(5 * center), 2.0 + random(5 * center + 2)], d)
+    }),
+    ("rings", |k, d| {
+        let ([x, y], ring) = (circle(k % 100, 100, 1.0), k / 100);
+        moved(k, [x + 3.0 * (ring % 8) as f64, y + 3.0 * (ring / 8) as f64], d)
+    }),
+    ("one line", |k, d| {
+        let x = 2.0 + random(3 * k);
+        [x, x * (1.0 + d * random(3 * k + 1))]
+    }),
+    ("few lines", |k, d| {
+        let x = 2.0 + random(3 * k);
+        [x, (x + (k % 5) as f64) * (1.0 + d * random(3 * k + 1))]
+    }),
+    ("parallel strands", |k, d| {
+        let x = 1.0 + (k / 3) as f64 / (SIZE / 3) as f64;
+        [x, x * (1.0 + d * (k % 3) as f64)]
+    }),
+];
+
+/// The work of each call on these points, by name.
+fn works(points: &[Point]) -> Vec<(&'static str, usize)> {
+    const NAMES: [(&str, &[f64]); 8] = [
+        ("crust", &[]),
+        ("one-step-crust", &[]),
+        ("beta-skeleton", &[1.7, 0.0]),
+        ("relative-neighborhood", &[]),
+        ("conservative-crust", &[1.0]),
+        ("gathan", &[0.5, 1.0]),
+        ("minimum-spanning-tree", &[]),
+        ("nn-crust", &[]),
+    ];
+    let quiet = Progress::default();
+    let delaunay = Delaunay::new(points, &quiet).expect("points");
+    let edges = methods::crust(&delaunay, &quiet).expect("no one cancels");
+    let mut works = Vec::new();
+    let mut measure = |name, call: &dyn Fn()| {
+        DONE.set(0);
+        call();
+        works.push((name, DONE.get()));
+    };
+    measure("triangulation", &|| drop(Delaunay::new(points, &quiet)));
+    for (name, parameters) in NAMES {
+        measure(name, &|| drop(methods::select(&delaunay, name, parameters, &quiet)));
+    }
+    measure("medial axis", &|| drop(medial_axis::medial_axis(&delaunay, &edges, &quiet)));
+    measure("certificate", &|| {
+        let interpolant = Interpolant::new(&delaunay, &edges, &quiet).expect("no one cancels");
+        certify::measure(&delaunay, &edges, &interpolant, &quiet).expect("no one cancels");
+        let curve = Adjacency::new(&delaunay, &edges);
+        methods::is_beta_skeleton(&delaunay, 1.7, &curve, &quiet).expect("no one cancels");
+    });
+    works
+}
+
+/// What a call does for a point at least, in about nanoseconds.
+const LEAST: usize = 400;
+/// How many times as much a nearly degenerate call may take.
+const MOST: usize = 10;
+/// Those that take more as yet: exact ties of lengths, and of circles through points an ulp apart, each in long integers.
+const LATE: [(&str, &str, usize); 3] = [
+    ("pairs", "crust", 60),
+    ("two exports of an outline", "crust", 20),
+    ("lattice", "minimum-spanning-tree", 20),
+];
+
+#[test]
+fn nearly_degenerate_points_take_at_most_ten_times_the_work() {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let mut late = Vec::new();
+    pool.install(|| {
+        for (family, point) in FAMILIES {
+            let at = |d: f64| works(&(0..SIZE).map(|k| point(k, d)).collect::<Vec<_>>());
+            let general = at(1e-2);
+            for exponent in [-16, -15, -14, -13, -12, -10, -8, -6] {
+                let d = if exponent == -16 { f64::EPSILON } else { 10f64.powi(exponent) };
+                for ((name, work), (_, usual)) in at(d).into_iter().zip(&general) {
+                    let known = LATE.iter().find(|late| (late.0, late.1) == (family, name));
+                    let most = known.map_or(MOST, |late| late.2);
+                    if work + LEAST * SIZE > most * (usual + LEAST * SIZE) {
+                        late.push(format!("{family} at {d:e}: {name} {work} over {usual}"));
+                    }
+                }
+            }
+        }
+    });
+    assert!(late.is_empty(), "{}", late.join("\n"));
+}
