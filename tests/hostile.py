@@ -149,7 +149,7 @@ PATHS: list[Make] = [
 
 #: What fits a parameter, by its name; parameters with other names are numbers.
 FITTING: dict[str, list[Make]] = {
-    "points": POINTS, "coordinates": POINTS, "extra": POINTS, "sites": POINTS,
+    "points": POINTS, "coordinates": POINTS, "extra": POINTS, "sites": POINTS, "places": POINTS,
     "edges": EDGES, "curve": CURVES, "curves": TRACED, "method": METHODS, "path": PATHS,
     "box": [lambda: None, lambda: (0, 0, 1, 1), lambda: np.array([-1, -1, 2, 2.0])],
     "thing": [lambda: cl.Points(SQUARE), *TRACED, lambda: cl.medial_axis(RING)],

@@ -53,7 +53,9 @@ def test_every_function_answers_what_fits() -> None:
                 break
     needs_one_of_two = {"Spline.sample"}
     needs_pyvista = set() if find_spec("pyvista") else {"Curves.to_pyvista"}
-    assert answered - needs_pyvista == set(hostile.FUNCTIONS) - needs_one_of_two - needs_pyvista
+    # The second needs the front end, which is built apart.
+    optional = needs_pyvista | {"Curves.edit"}
+    assert answered - optional == set(hostile.FUNCTIONS) - needs_one_of_two - optional
 
 
 itself: list[Any] = []

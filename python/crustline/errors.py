@@ -37,8 +37,15 @@ def shown(value: object, most: int = 60) -> str:
 def require(extra: str, *packages: str) -> None:
     """Raise `MissingExtraError` if a package that an extra of crustline brings is not installed."""
     for package in packages:
-        if find_spec(package) is None:
+        if not _is_here(package):
             raise MissingExtraError(
                 f"this needs {package}, which is not installed: "
                 f"run pip install 'crustline[{extra}]'"
             )
+
+
+def _is_here(package: str) -> bool:
+    try:
+        return find_spec(package) is not None
+    except ImportError:  # of a part of a package that is not here
+        return False
