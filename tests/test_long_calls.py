@@ -11,7 +11,8 @@ import pytest
 import crustline as cl
 from crustline.errors import InputError
 
-POINTS = np.random.default_rng(5).random((300_000, 2))
+#: So many that a call takes several times as long as it waits before it reports.
+POINTS = np.random.default_rng(5).random((2_000_000, 2))
 
 
 def test_progress_names_stages_in_order_and_fractions_between_0_and_1() -> None:

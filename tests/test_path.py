@@ -27,7 +27,7 @@ def test_every_curve_is_in_one_feature():
     ]  # fmt: skip
     polygon, line, lonely = curves.features(polygons=True)
     assert (polygon.number, polygon.kind, line.number, lonely.number) == (0, "polygon", 1, None)
-    assert [part.tolist() for part in polygon.parts] == [[0, 1, 2, 3], [7, 6, 5, 4]]
+    assert [part.tolist() for part in polygon.parts] == [[0, 1, 2, 3], [4, 7, 6, 5]]
     rows = np.concatenate([*polygon.parts, *line.parts, *lonely.parts])
     assert sorted(rows.tolist()) == list(range(len(curves.points)))
 
@@ -59,7 +59,7 @@ def test_a_path_of_a_feature_holds_its_parts():
     polygon, line, lonely = (
         Path.of_feature(each, curves.points.xy) for each in curves.features(polygons=True)
     )
-    assert polygon.svg() == "M0 0L2 0L2 2L0 2ZM0.5 1L1 1L1 0.5L0.5 0.5Z"
+    assert polygon.svg() == "M0 0L2 0L2 2L0 2ZM0.5 0.5L0.5 1L1 1L1 0.5Z"
     assert (line.svg(), lonely.svg()) == ("M5 0L6 0", "M9 9h0")
 
 

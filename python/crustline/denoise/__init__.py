@@ -84,9 +84,9 @@ class Denoised(Record):
 
         Examples
         --------
-        >>> line = denoise([(k, k % 2 / 3) for k in range(40)])
-        >>> line.annotated().points.columns["input_rows"][:3].tolist()
-        ['0', '1', '2 3']
+        >>> line = denoise([(k / 5, k % 3 / 4) for k in range(60)])
+        >>> line.annotated().points.columns["input_rows"][:4].tolist()
+        ['0', '1', '2', '3 4']
         """
         return annotated(self.points, self.curves, self.vertices, self.uncertainty, self.noise)
 

@@ -111,13 +111,21 @@ def _separator(lines: Lines) -> str:
     Tabs, semicolons and bars hardly stand in numbers; commas and blanks do, so that of these the
     one is taken that leaves fewer other cells.
     """
-    scores = {each: _score(_sample(lines, each)) for each in _SEPARATORS}
+    scores = {each: _score_of(lines, each) for each in _SEPARATORS}
     most = max(count for count, _ in scores.values())
     if most == 0:
         first = next((line for _, line in lines.data(lines.first)), "")
         return next((each for each in _SEPARATORS if each in first), " ")
     able = [each for each, (count, _) in scores.items() if count == most]
     return able[0] if able[0] not in ", " else max(able, key=lambda each: scores[each][1])
+
+
+def _score_of(lines: Lines, separator: str) -> tuple[int, float]:
+    """Return the score of a separator; none if quotes are not where it would have them."""
+    try:
+        return _score(_sample(lines, separator))
+    except FormatError:
+        return 0, 0.0
 
 
 def _score(rows: list[Row]) -> tuple[int, float]:
