@@ -61,9 +61,7 @@ def test_a_drawing_keeps_its_lines_and_gets_its_gaps_closed(
     """openscad #448: the laser cutter wants closed polylines, not loose lines."""
     output = drawing.with_name("closed.dxf")
     with pytest.raises(SystemExit) as caught:
-        main(
-            ["reconstruct", str(drawing), "--edges-from-file", "--max-edge", "4", "-o", str(output)]
-        )
+        main(["reconstruct", str(drawing), "--edges-from-file", "-o", str(output)])
     assert caught.value.code == 0
     assert "1 ring, 3 open curves, 1 branch, 0 isolated points" in capsys.readouterr().err
     written = ezdxf.readfile(output)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crustline.arrays import IntArray, as_edges
+from crustline.arrays import FloatArray, IntArray, as_edges
 from crustline.delaunay import Delaunay, as_delaunay
 from crustline.methods.connect import connect
 
@@ -54,9 +54,24 @@ def close_gaps(points: ArrayLike | Delaunay, edges: ArrayLike, **hints: Any) -> 
     delaunay = as_delaunay(points)
     known = as_edges(edges, len(delaunay.points))
     degrees = np.bincount(known.ravel(), minlength=len(delaunay.points))
-    # `connect` allows two edges a point, so what meets in branches is laid over its answer.
     at_branch = (degrees[known] > 2).any(axis=1)
-    beside = np.unique(known[at_branch])
-    made = connect(delaunay, keep=known[~at_branch], ends=beside[degrees[beside] <= 2], **hints)
+    # `connect` allows two edges a point, so what meets in branches is laid over its answer, and of
+    # two edges that it gives to the end of such an arm the shorter one is taken.
+    made = connect(delaunay, keep=known[~at_branch], **hints)
     added = made[(degrees[made] < 2).all(axis=1)]
-    return as_edges(np.concatenate([known, added]), len(delaunay.points))
+    is_arm = np.zeros(len(degrees), bool)
+    is_arm[known[at_branch]] = True
+    at_arm = is_arm[added].any(axis=1)
+    taken = _with_room(added[at_arm], delaunay.points.xy, np.where(is_arm, 2 - degrees, 2))
+    return as_edges(np.concatenate([known, added[~at_arm], taken]), len(delaunay.points))
+
+
+def _with_room(edges: IntArray, xy: FloatArray, room: IntArray) -> IntArray:
+    """Return edges, the shortest first, as long as both ends have room for them."""
+    lengths = np.hypot(*(xy[edges[:, 0]] - xy[edges[:, 1]]).T)
+    taken = []
+    for edge in edges[np.lexsort((edges[:, 1], edges[:, 0], lengths))].tolist():
+        if (room[edge] > 0).all():
+            room[edge] -= 1
+            taken.append(edge)
+    return np.array(taken, np.int64).reshape(-1, 2)
