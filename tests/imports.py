@@ -94,8 +94,14 @@ def rust_imports() -> list[Import]:
     ]
 
 
+def without_tests(text: str) -> str:
+    """Rust without what only tests compile: modules, fields and statements under `cfg(test)`."""
+    item = r"#\[cfg\(test\)\]\n\s*(?:mod \w+ \{.*?^\}|[^\n]*,\n|[^;]*;)"
+    return re.sub(item, "", text, flags=re.DOTALL | re.MULTILINE)
+
+
 def _of_rust(module: str, text: str) -> set[str]:
-    code = re.sub(r"//.*", "", text).partition("#[cfg(test)]")[0]
+    code = without_tests(re.sub(r"//.*", "", text))
     children = re.findall(r"^\s*(?:pub(?:\(.*?\))?\s+)?mod (\w+);", code, re.MULTILINE)
     trees = [tree for public, tree in re.findall(r"(pub\s+)?use\s+([^;]+);", code) if not public]
     code = re.sub(r"\buse\s+[^;]+;", "", code)

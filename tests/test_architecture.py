@@ -146,7 +146,7 @@ def test_no_python_file_or_function_is_long(name: str) -> None:
 @pytest.mark.parametrize("name", imports.RUST_FILES)
 def test_no_rust_file_is_long(name: str) -> None:
     """Clippy counts the lines of functions: clippy.toml."""
-    text = imports.RUST_FILES[name].read_text(encoding="utf-8").partition("#[cfg(test)]")[0]
+    text = imports.without_tests(imports.RUST_FILES[name].read_text(encoding="utf-8"))
     assert len(re.findall(r"^\s*(?!//)\S", text, re.MULTILINE)) <= LONGEST_FILE
 
 
