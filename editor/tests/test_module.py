@@ -32,6 +32,7 @@ COMPUTE = """([sets, methods, theorems]) => sets.map((points) => {
     const crust = Uint32Array.from(edges[0]);
     const certificate = delaunay.certify(crust, Float64Array.from(theorems));
     const axis = delaunay.medialAxis(crust);
+    const connection = delaunay.connection();
     return {
         edges,
         triangulation: [...delaunay.edges()],
@@ -40,6 +41,9 @@ COMPUTE = """([sets, methods, theorems]) => sets.map((points) => {
         ratios: [...certificate.ratios].map(String),
         reasons: [[...certificate.edgeReasons], [...certificate.pointReasons]],
         guaranteed: certificate.guaranteed,
+        sure: [connection.whole, ...connection.confidence].map(String),
+        others: [[...connection.leftOut], connection.leftOutReasons,
+            [...connection.added], connection.addedReasons],
         axis: [[...axis.edges], [...axis.samples], [...axis.vertices].map(String)],
     };
 })"""
@@ -116,6 +120,12 @@ def check(points: FloatArray, answer: dict[str, Any]) -> None:
     codes = [certificate.edge_codes.tolist(), certificate.point_codes.tolist()]
     assert answer["reasons"] == codes
     assert answer["guaranteed"] == certificate.guaranteed
+    connection = cl.connection(delaunay)
+    close(answer["sure"], np.append(connection.whole, connection.confidence))
+    assert answer["others"] == [
+        connection.left_out.ravel().tolist(), list(connection.left_out_reasons),
+        connection.added.ravel().tolist(), list(connection.added_reasons),
+    ]  # fmt: skip
     axis = cl.medial_axis(delaunay, crust)
     assert answer["axis"][:2] == [axis.edges.ravel().tolist(), axis.samples.ravel().tolist()]
     close(answer["axis"][2], axis.vertices.ravel())

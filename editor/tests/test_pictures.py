@@ -23,7 +23,7 @@ SIZES: dict[str, dict[str, Any]] = {
 }
 LAYERS = (
     "sizes", "triangulation", "voronoi", "axis", "curve", "difference", "smooth", "points",
-    "weak", "indices",
+    "weak", "confidence", "indices",
 )  # fmt: skip
 #: What the docs show: the layers, the method, and what is compared.
 SHOWN = {
@@ -31,6 +31,7 @@ SHOWN = {
     "weak-places": (["weak", "axis"], "crust", ""),
     "comparison": (["triangulation", "difference"], "crust", "beta-skeleton"),
     "feature-sizes": (["sizes", "axis"], "crust", ""),
+    "confidence": (["confidence"], "connect", ""),
 }
 
 
@@ -63,7 +64,8 @@ def test_each_layer_has_its_picture(new_editor: New, static: str, size: str, sch
     seen = set()
     for layer in LAYERS:
         other = "beta-skeleton" if layer == "difference" else ""
-        show(editor, [layer], other=other)
+        method = "connect" if layer == "confidence" else "crust"
+        show(editor, [layer], method, other)
         picture = editor.page.screenshot(path=PICTURES / f"{layer}-{size}-{scheme}.png")
         seen.add(picture)
         assert colors(picture) > 4

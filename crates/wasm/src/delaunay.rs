@@ -2,6 +2,7 @@
 
 use crate::arrays::{edges, flat, points, run};
 use crate::certificate::Certificate;
+use crate::connection::Connection;
 use crate::curves::Curves;
 use crate::medial_axis::MedialAxis;
 use crate::methods::select;
@@ -93,6 +94,14 @@ impl Delaunay {
     /// No such method, or parameters that it does not take.
     pub fn select(&self, method: &str, parameters: &[f64]) -> Thrown<Vec<u32>> {
         Ok(flat(run(|progress| select(&self.inner, method, parameters, progress))?))
+    }
+
+    /// The edges of `connect`, how sure they are, and why they are not the crust's.
+    ///
+    /// # Errors
+    /// Those of the core.
+    pub fn connection(&self) -> Thrown<Connection> {
+        Connection::new(&self.inner)
     }
 
     /// Edges joined into rings and polylines.

@@ -5,12 +5,14 @@
 
 mod arrays;
 mod certificate;
+mod connection;
 mod curves;
 mod delaunay;
 mod medial_axis;
 mod methods;
 
 pub use certificate::Certificate;
+pub use connection::Connection;
 pub use curves::Curves;
 pub use delaunay::Delaunay;
 pub use medial_axis::MedialAxis;

@@ -4,7 +4,7 @@ import { aShape, Delaunay } from "../../build/module/crustline.js";
 import { THEOREMS } from "../model/catalog.ts";
 import type { Curves } from "../model/curves.ts";
 import type { Choice } from "../model/document.ts";
-import type { Answer, Axis, Certificate, Part, Question } from "./protocol.ts";
+import type { Answer, Axis, Certificate, Connection, Part, Question } from "./protocol.ts";
 
 export class Kernel {
   private version = -1;
@@ -32,6 +32,7 @@ export class Kernel {
       sizes: wants("sizes") ? delaunay.localFeatureSize(edges) : null,
       certificate: wants("certificate") ? certificateOf(delaunay, edges) : null,
       smooth: wants("smooth") ? delaunay.tangents(edges) : null,
+      connection: wants("connection") && question.choice.method === "connect" ? connectionOf(delaunay) : null,
       milliseconds: performance.now() - start,
     };
   }
@@ -77,6 +78,13 @@ function certificateOf(delaunay: Delaunay, edges: Uint32Array): Certificate {
   const { theorem, threshold, guaranteed, ratios, edgeReasons, pointReasons } = found;
   found.free();
   return { theorem, threshold, guaranteed, ratios, edgeReasons, pointReasons };
+}
+
+function connectionOf(delaunay: Delaunay): Connection {
+  const found = delaunay.connection();
+  const { confidence, whole, leftOut } = found;
+  found.free();
+  return { confidence, whole, leftOut };
 }
 
 /** The edges that are not among others; both are sorted. */

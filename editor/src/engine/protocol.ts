@@ -4,7 +4,7 @@ import type { Curves } from "../model/curves.ts";
 import type { Choice } from "../model/document.ts";
 
 /** The parts of an answer that take time and are only made when they are shown. */
-export const PARTS = ["triangulation", "voronoi", "axis", "sizes", "certificate", "smooth"] as const;
+export const PARTS = ["triangulation", "voronoi", "axis", "sizes", "certificate", "smooth", "connection"] as const;
 export type Part = (typeof PARTS)[number];
 
 export interface Question {
@@ -33,6 +33,13 @@ export interface Certificate {
   readonly pointReasons: Uint8Array;
 }
 
+/** How sure `connect` is of each of its edges, and what of the crust it leaves out. */
+export interface Connection {
+  readonly confidence: Float64Array;
+  readonly whole: number;
+  readonly leftOut: Uint32Array;
+}
+
 export const REASONS = ["", "undersampled", "missing", "corner", "endpoint", "branch", "isolated", "unselected"] as const;
 
 export interface Answer {
@@ -52,6 +59,8 @@ export interface Answer {
   readonly certificate: Certificate | null;
   /** Unit tangents of the smooth interpolant, x and y for each point. */
   readonly smooth: Float64Array | null;
+  /** Of the method `connect` alone. */
+  readonly connection: Connection | null;
   /** How long the work took. */
   readonly milliseconds: number;
 }

@@ -77,6 +77,9 @@ export const WEAK_MARKS: Readonly<Record<string, Mark>> = {
   missing: "cross", corner: "triangle", endpoint: "square", branch: "diamond", isolated: "cross", unselected: "cross",
 };
 
+/** What is less sure than the first is drawn as wide as the second. */
+const UNSURE = [[0.9, 5], [0.5, 9]] as const;
+
 const thin = (color: string): Stroke => ({ color, width: 1 });
 
 export const LAYERS: readonly Layer[] = [
@@ -123,6 +126,20 @@ export const LAYERS: readonly Layer[] = [
       const { extra, missing } = scene.answer ?? {};
       if (extra) pen.edges(places(scene), extra, { color: palette.extra, width: 5, alpha: 0.75 });
       if (missing) pen.edges(places(scene), missing, { color: palette.missing, width: 3, dash: [7, 4] });
+    },
+  },
+  {
+    name: "confidence", title: "Confidence", part: "connection",
+    says: "Edges of connect that are less than 90 % sure, the thicker the less; dashed, edges of the crust that it leaves out",
+    color: (palette) => palette.weak, sign: "dashed",
+    draw(pen, scene, palette) {
+      const { connection, edges } = scene.answer ?? {};
+      if (!connection || !edges) return;
+      for (const [least, width] of UNSURE) {
+        const unsure = Array.from(edges).filter((_, k) => connection.confidence[k >> 1]! < least);
+        pen.edges(places(scene), Uint32Array.from(unsure), { color: palette.weak, width, alpha: 0.4 });
+      }
+      pen.edges(places(scene), connection.leftOut, { color: palette.weak, width: 2, dash: [7, 4] });
     },
   },
   {
