@@ -14,6 +14,7 @@ from crustline.cli.hints import Command
 from crustline.cli.method import as_method
 from crustline.cli.output import counted
 from crustline.cli.progress import progress_bar
+from crustline.cli.source import is_verbose
 from crustline.errors import InputError
 
 if TYPE_CHECKING:
@@ -97,5 +98,5 @@ def _say(result: Result, about: dict[str, Any], options: dict[str, Any]) -> None
         words = ", ".join(counted(counts[key], word) for word, key in parts.items())
         end = f"{about['seconds']:.2f} s; wrote {options['files'][0]}"
         click.echo(f"{about['input']}: {words}, by {about['method']}; {end}", err=True)
-        if options.get("verbose"):
+        if is_verbose():
             click.echo(result.summary(), err=True)

@@ -13,7 +13,7 @@ from typing import Any
 import click
 
 from crustline.cli.hints import Command
-from crustline.cli.source import format_options
+from crustline.cli.source import VERBOSE, format_options
 from crustline.errors import InputError
 from crustline.formats.catalog import able, format_of_target, options_for, suffixes_for
 from crustline.formats.format import Format
@@ -149,7 +149,7 @@ def _pass_output(
 
 
 def _verbose(context: click.Context, option: click.Parameter, value: bool) -> None:
-    context.meta["crustline.verbose"] = value
+    context.meta[VERBOSE] = value
 
 
 def _checked(settings: dict[str, Any], formats: dict[str, str], task: str) -> dict[str, Any]:

@@ -20,6 +20,16 @@ if TYPE_CHECKING:
     from crustline.points import Points
 
 
+#: Where the context of a command keeps what -v says.
+VERBOSE = "crustline.verbose"
+
+
+def is_verbose() -> bool:
+    """Return whether the command that runs was given -v."""
+    context = click.get_current_context(silent=True)
+    return bool(context and context.meta.get(VERBOSE))
+
+
 @dataclass(frozen=True)
 class Source:
     """A file of points, and what was said about it."""
@@ -37,8 +47,7 @@ class Source:
 
         opened = opened or Opened(self.name)
         points = read(opened, format=self.format, crs=self.crs, **self.settings)
-        context = click.get_current_context(silent=True)
-        if context and context.meta.get("crustline.verbose"):
+        if is_verbose():
             for subject, finding in opened.notes.items():
                 click.echo(f"crustline: {opened.name}: {subject}: {finding}", err=True)
         return points
