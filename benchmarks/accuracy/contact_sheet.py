@@ -1,8 +1,10 @@
-"""A sheet of small pictures of failures: right edges gray, wrong ones red, missing ones blue."""
+"""Sheets of small pictures; of failures: right edges gray, wrong ones red, missing ones blue."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any, TypeVar
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -14,18 +16,35 @@ from .reasons import reason
 
 COLUMNS = 6
 
+Item = TypeVar("Item")
+
 
 def draw_sheet(failures: list[Score], path: Path) -> None:
     """Write the sheet of failures to a PNG file."""
-    rows = max(1, -(-len(failures) // COLUMNS))
-    figure, axes = plt.subplots(rows, COLUMNS, figsize=(3 * COLUMNS, 3.2 * rows), squeeze=False)
+    write_sheet(failures, _draw, path, columns=COLUMNS, size=(3, 3.2), dpi=60)
+
+
+def write_sheet(
+    items: Sequence[Item],
+    draw: Callable[[Axes, Item], None],
+    path: Path,
+    *,
+    columns: int,
+    size: tuple[float, float],
+    **saving: Any,
+) -> None:
+    """Write small pictures of a size in inches, row by row, to a PNG file."""
+    rows = max(1, -(-len(items) // columns))
+    width, height = size
+    figsize = (width * columns, height * rows)
+    figure, axes = plt.subplots(rows, columns, figsize=figsize, squeeze=False)
     for ax in axes.flat:
         ax.set_axis_off()
-    for ax, score in zip(axes.flat, failures, strict=False):
-        _draw(ax, score)
+    for ax, item in zip(axes.flat, items, strict=False):
+        draw(ax, item)
     figure.tight_layout()
     path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=60)
+    figure.savefig(path, **saving)
     plt.close(figure)
 
 

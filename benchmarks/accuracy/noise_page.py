@@ -6,13 +6,14 @@ python -m benchmarks.accuracy.noise_page
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 
 import crustline as cl
 
+from .contact_sheet import write_sheet
 from .families import HALVES
 from .noise import NOISE, NOISY, NoisyScore, noisy_cases, noisy_score, outlines, places
 from .outline import Array
@@ -141,17 +142,8 @@ def _least_squares_circle(points: Array) -> tuple[Array, float]:
 
 
 def _sheet(scores: list[NoisyScore], path: Path, dpi: int) -> None:
-    columns = len(NOISY)
-    rows = max(1, -(-len(scores) // columns))
-    figure, axes = plt.subplots(rows, columns, figsize=(2.4 * columns, 2.6 * rows), squeeze=False)
-    for ax in axes.flat:
-        ax.set_axis_off()
-    for ax, score in zip(axes.flat, scores, strict=False):
-        _draw(ax, score)
-    figure.tight_layout()
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=dpi, metadata={"Software": None})
-    plt.close(figure)
+    about: dict[str, Any] = {"dpi": dpi, "metadata": {"Software": None}}
+    write_sheet(scores, _draw, path, columns=len(NOISY), size=(2.4, 2.6), **about)
 
 
 def _draw(ax: Axes, score: NoisyScore) -> None:

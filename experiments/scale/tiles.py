@@ -10,7 +10,7 @@ import numpy as np
 from crustline import _core
 from crustline.arrays import FloatArray
 from crustline.distributed.sight import around, grown, holds, meets, without
-from crustline.distributed.tile import MOST, MOST_HALO
+from crustline.distributed.tile import MOST, MOST_HALO, second_distances
 from experiments.scale.fields import Field, cells
 
 #: Cells around a tile that are made, too.
@@ -71,13 +71,7 @@ def halo(own: FloatArray, others: FloatArray) -> FloatArray:
 def spacing(xy: FloatArray) -> float:
     """Return the distance to the second neighbor that 99 % of a sample of the points stay below."""
     part = xy[np.argsort(xy[:, 0], kind="stable")[: max(2000, len(xy) // 50)]]
-    delaunay = _core.Delaunay(part, 1)
-    edges = delaunay.edges()
-    ends = np.concatenate([edges[:, 0], edges[:, 1]])
-    lengths = np.tile(np.hypot(*(part[edges[:, 0]] - part[edges[:, 1]]).T), 2)
-    order = np.lexsort((lengths, ends))
-    second = np.flatnonzero(np.diff(ends[order], prepend=-1) > 0)[:-1] + 1
-    return float(np.quantile(lengths[order][second], 0.99))
+    return float(np.quantile(second_distances(part), 0.99))
 
 
 def unseen(blocks: list[FloatArray], clear: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -127,7 +127,7 @@ def _guess(store: Folder, tile: int, count: int) -> float:
     groups = atlas.groups_of(tile)
     numbers = np.linspace(0, groups.stop - groups.start - 1, 8).astype(int)
     records = store.groups(tile, np.unique(numbers).tolist())
-    spacings = np.concatenate([_spacings(record["xy"]) for record in records])
+    spacings = np.concatenate([second_distances(record["xy"]) for record in records])
     width = 4 * float(np.quantile(spacings, 0.99)) if len(spacings) else 0.0
     others = np.ones(len(atlas.bounds), bool)
     others[groups] = False
@@ -139,7 +139,7 @@ def _guess(store: Folder, tile: int, count: int) -> float:
     return width
 
 
-def _spacings(xy: FloatArray) -> FloatArray:
+def second_distances(xy: FloatArray) -> FloatArray:
     """Return the distance from each point to its second neighbor, of those that have two."""
     delaunay = _core.Delaunay(xy, 1)
     edges = np.concatenate([delaunay.edges(), delaunay.edges()[:, ::-1]])

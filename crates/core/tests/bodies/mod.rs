@@ -196,18 +196,24 @@ fn connecting(data: &[u8]) {
     assert_eq!(ends(edges, &points), ends(turned, &backward));
 }
 
-/// Measures are numbers, or infinite, and none is negative.
-fn certifying(data: &[u8]) {
+/// Points with their crust, or with any edges.
+fn with_edges(data: &[u8]) -> Option<(Delaunay, Edges)> {
     let mut bytes = Bytes(data);
     let own = bytes.byte() % 2 == 0;
     let points = bytes.points();
-    let Some(delaunay) = triangulated(&points) else { return };
-    let progress = Progress::default();
+    let delaunay = triangulated(&points)?;
     let edges = if own {
-        methods::crust(&delaunay, &progress).expect("no one cancels")
+        methods::crust(&delaunay, &Progress::default()).expect("no one cancels")
     } else {
         Bytes(data).edges(points.len())
     };
+    Some((delaunay, edges))
+}
+
+/// Measures are numbers, or infinite, and none is negative.
+fn certifying(data: &[u8]) {
+    let Some((delaunay, edges)) = with_edges(data) else { return };
+    let progress = Progress::default();
     let interpolant = Interpolant::new(&delaunay, &edges, &progress).expect("no one cancels");
     let measures = measure(&delaunay, &edges, &interpolant, &progress).expect("no one cancels");
     assert_eq!(measures.ratios.len(), edges.len());
@@ -217,16 +223,8 @@ fn certifying(data: &[u8]) {
 
 /// Finite vertices, each edge between two of them and two rows.
 fn axis(data: &[u8]) {
-    let mut bytes = Bytes(data);
-    let own = bytes.byte() % 2 == 0;
-    let points = bytes.points();
-    let Some(delaunay) = triangulated(&points) else { return };
+    let Some((delaunay, edges)) = with_edges(data) else { return };
     let progress = Progress::default();
-    let edges = if own {
-        methods::crust(&delaunay, &progress).expect("no one cancels")
-    } else {
-        Bytes(data).edges(points.len())
-    };
     let axis = medial_axis(&delaunay, &edges, &progress).expect("no one cancels");
     assert!(axis.vertices.iter().flatten().chain(&axis.radii).all(|x| x.is_finite()));
     let count = axis.vertices.len() as u32;
