@@ -146,13 +146,14 @@ class Interpolant:
         progress: _Progress | None = None,
     ) -> Interpolant: ...
     def is_of(self, edges: _Integers) -> bool: ...
-    def is_beta_skeleton(
-        self, beta: float, threads: int | None = None, progress: _Progress | None = None
-    ) -> bool: ...
     def sizes(self) -> _Floats: ...
-    def measures(
-        self, threads: int | None = None, progress: _Progress | None = None
-    ) -> tuple[_Floats, _Floats, _Integers]: ...
+    def certificate(
+        self,
+        theorems: tuple[float, float, float, float],
+        crust: _Integers | None = None,
+        threads: int | None = None,
+        progress: _Progress | None = None,
+    ) -> tuple[str | None, bool, _Floats, NDArray[np.uint8], NDArray[np.uint8]]: ...
 
 def ridge(
     delaunay: Delaunay,

@@ -10,14 +10,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from crustline.arrays import BoolArray, FloatArray, IntArray, read_only
+from crustline import _core
+from crustline.arrays import FloatArray, IntArray, read_only
 from crustline.delaunay import Delaunay, as_delaunay
 from crustline.interpolant import interpolant
-from crustline.methods import as_selected, crust
+from crustline.methods import as_selected
 from crustline.notebook import paragraphs
 from crustline.points import Points
 from crustline.records import Record
-from crustline.theory import BETA, guaranteed_r, sample_angle
+from crustline.theory import BETA, guaranteed_r
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,9 +32,14 @@ MARGIN = 0.15
 REASONS = np.array(
     ["", "undersampled", "missing", "corner", "endpoint", "branch", "isolated", "unselected"]
 )
-UNDERSAMPLED, MISSING, CORNER, ENDPOINT, BRANCH, ISOLATED, UNSELECTED = range(1, len(REASONS))
 
-Codes = npt.NDArray[np.int8]
+#: The theorems by the methods that they are about.
+_THEOREMS = {
+    "beta-skeleton": f"Theorem 20 (β-skeleton, β = {BETA:.2f})",
+    "crust": "Theorems 14 and 15 (crust)",
+}
+
+Codes = npt.NDArray[np.uint8]
 Reasons = npt.NDArray[np.str_]
 
 
@@ -68,7 +74,7 @@ class Certificate(Record):
     point_reason : ndarray of str, shape (n,)
         The same for points: "isolated", "branch", "endpoint", "corner", "missing" (a method has
         an edge here that is not among the edges), "undersampled".
-    edge_codes, point_codes : ndarray of int8
+    edge_codes, point_codes : ndarray of uint8
         The reasons as numbers: rows of `REASONS`, 0 if there is none.
     """
 
@@ -262,44 +268,25 @@ def certify(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = None
     """
     delaunay = as_delaunay(points)
     chosen = as_selected(delaunay, edges)
-    smooth = interpolant(delaunay, chosen)
-    ratio, turn, degree = smooth.measures
-    theorem, threshold, differing = _theorem(delaunay, chosen, smooth.is_beta_skeleton(BETA))
-    asked = threshold or guaranteed_r("beta_skeleton", BETA)
-    corner = turn > math.pi - float(sample_angle(asked))
-    of_points = _reasons_of_points(degree, corner, _without(differing, chosen, len(delaunay)))
-    sparse = ~((1 + MARGIN) * ratio < asked)
-    of_edges = _reasons_of_edges(chosen, of_points, sparse)
-    of_edges[_is_without(chosen, differing, len(delaunay))] = UNSELECTED
-    touched = chosen[of_edges == UNDERSAMPLED].ravel()
-    of_points[touched] = np.maximum(of_points[touched], UNDERSAMPLED)
-    largest = float(ratio.max()) if len(ratio) else math.inf
-    sound = not of_edges.any() and not of_points.any()
+    thresholds = {"beta-skeleton": guaranteed_r("beta_skeleton"), "crust": guaranteed_r("crust")}
+    method, guaranteed, ratio, of_edges, of_points = interpolant(delaunay, chosen).run(
+        _core.Interpolant.certificate,
+        (BETA, thresholds["beta-skeleton"], thresholds["crust"], MARGIN),
+        delaunay.kept("crust"),
+    )
+    threshold = thresholds.get(method or "", 0.0)
     return Certificate(
         points=delaunay.points,
         edges=chosen,
         ratio=ratio,
-        sampling_ratio=largest,
+        sampling_ratio=float(ratio.max()) if len(ratio) else math.inf,
         threshold=threshold,
-        guaranteed=bool(theorem and len(chosen) and sound),
-        theorem=theorem,
-        promise=_promise(threshold) if theorem else "",
+        guaranteed=guaranteed,
+        theorem=_THEOREMS.get(method or "", ""),
+        promise=_promise(threshold) if method else "",
         edge_codes=of_edges,
         point_codes=of_points,
     )
-
-
-def _theorem(
-    delaunay: Delaunay, edges: IntArray, is_beta_skeleton: bool
-) -> tuple[str, float, IntArray]:
-    """Return the theorem for edges, its r, and if there is none the crust's edges."""
-    if is_beta_skeleton:
-        theorem = f"Theorem 20 (β-skeleton, β = {BETA:.2f})"
-        return theorem, guaranteed_r("beta_skeleton", BETA), edges
-    selected = crust(delaunay)
-    if np.array_equal(edges, selected):
-        return "Theorems 14 and 15 (crust)", guaranteed_r("crust"), edges
-    return "", 0.0, selected
 
 
 def _promise(threshold: float) -> str:
@@ -307,32 +294,3 @@ def _promise(threshold: float) -> str:
         f"if the points are an r-sample, r < {threshold:.5f}, of any smooth closed curve "
         "(of one or more components), then these edges join exactly the samples adjacent along it."
     )
-
-
-def _reasons_of_points(degree: IntArray, corner: BoolArray, missing: IntArray) -> Codes:
-    reasons = np.zeros(len(degree), np.int8)
-    reasons[missing] = MISSING
-    reasons[corner] = CORNER
-    reasons[degree == 1] = ENDPOINT
-    reasons[degree > 2] = BRANCH
-    reasons[degree == 0] = ISOLATED
-    return reasons
-
-
-def _reasons_of_edges(edges: IntArray, of_points: Codes, sparse: BoolArray) -> Codes:
-    """Return for each edge the gravest reason of its ends, or that it is undersampled."""
-    ends = np.where((of_points >= CORNER) & (of_points <= BRANCH), of_points, 0).astype(np.int8)
-    worst = np.maximum(ends[edges[:, 0]], ends[edges[:, 1]])
-    return np.maximum(worst, np.where(sparse, np.int8(UNDERSAMPLED), np.int8(0)))
-
-
-def _without(edges: IntArray, others: IntArray, n: int) -> IntArray:
-    """Return those of the edges between n points that are not among the others."""
-    return edges[_is_without(edges, others, n)]
-
-
-def _is_without(edges: IntArray, others: IntArray, n: int) -> BoolArray:
-    if edges is others:
-        return np.zeros(len(edges), bool)
-    keys, known = (rows[:, 0] * n + rows[:, 1] for rows in (edges, others))
-    return np.isin(keys, known, assume_unique=True, invert=True)

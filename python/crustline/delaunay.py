@@ -154,6 +154,10 @@ class Delaunay:
         """Return the edges that a method of the core selects, with its parameters in order."""
         return self.run(_core.select, method, list(map(float, parameters)))
 
+    def kept(self, name: str) -> Any:
+        """Return what was made under a name; None if nothing was."""
+        return self._made.get(name)
+
     def cached(
         self, name: str, make: Callable[[], Made], *, fits: Callable[[Made], bool] | None = None
     ) -> Made:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 from typing import Any
 
@@ -10,7 +11,7 @@ import numpy.typing as npt
 
 from crustline import _core
 from crustline.arrays import FloatArray, IntArray, as_points, equal, read_only
-from crustline.delaunay import Delaunay, as_delaunay
+from crustline.delaunay import Delaunay, Made, as_delaunay
 from crustline.methods import as_selected
 from crustline.scalars import as_positive
 
@@ -49,8 +50,6 @@ class Interpolant:
     >>> smooth = Interpolant([(0, 0), (1, 0), (1, 1), (0, 1)])
     >>> smooth
     <Interpolant: 4 edges between 4 points>
-    >>> smooth.is_beta_skeleton(1.2)
-    True
     """
 
     def __init__(
@@ -66,15 +65,6 @@ class Interpolant:
     def local_feature_size(self) -> FloatArray:
         """The distance of each sample (n,) to the axis: see `crustline.local_feature_size`."""
         return read_only(self._core.sizes())
-
-    @cached_property
-    def measures(self) -> tuple[FloatArray, FloatArray, IntArray]:
-        """The sampling ratio of each edge (m,), the turn (radians) and degree of each sample (n,).
-
-        The turn is the angle by which the two edges of a sample differ in direction; 0 where they
-        go straight on, or where there are not two.
-        """
-        return self._core.measures(*self._how)
 
     def size_at(self, places: npt.ArrayLike, *, gradation: float = 1.0) -> FloatArray:
         """Return the local feature size anywhere in the plane: a sizing field for meshers.
@@ -127,9 +117,9 @@ class Interpolant:
             found[start : start + _RUN] = (sizes[near] + slope * away).min(axis=1)
         return read_only(found)
 
-    def is_beta_skeleton(self, beta: float) -> bool:
-        """Return whether the edges are the circle-based β-skeleton of the samples, exactly."""
-        return self._core.is_beta_skeleton(as_positive("beta", beta), *self._how)
+    def run(self, work: Callable[..., Made], *arguments: object) -> Made:
+        """Return what a function of the core makes of the curve, run as was asked for."""
+        return work(self._core, *arguments, *self._how)
 
     def __eq__(self, other: object) -> bool:
         """Whether points and edges are equal: they decide all else."""

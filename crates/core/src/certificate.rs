@@ -7,6 +7,7 @@ use crate::error::Result;
 use crate::interpolant::Interpolant;
 use crate::methods::{Kind, beta_skeleton, crust, is_beta_skeleton};
 use crate::progress::Progress;
+use rayon::prelude::*;
 
 /// What a caller knows of the theorems.
 #[derive(Debug, Clone, Copy)]
@@ -28,6 +29,17 @@ pub enum Theorem {
     Crust,
     /// Theorem 20.
     BetaSkeleton,
+}
+
+impl Theorem {
+    /// The name of the method that it is about.
+    #[must_use]
+    pub fn method(self) -> &'static str {
+        match self {
+            Self::Crust => "crust",
+            Self::BetaSkeleton => "beta-skeleton",
+        }
+    }
 }
 
 /// Why a point or an edge is weak; a later reason outweighs those before it.
@@ -53,6 +65,14 @@ pub enum Reason {
     Unselected,
 }
 
+impl Reason {
+    /// Their numbers, which grow with their weight.
+    #[must_use]
+    pub fn codes(reasons: Vec<Self>) -> Vec<u8> {
+        reasons.into_iter().map(|reason| reason as u8).collect()
+    }
+}
+
 /// What holds of edges, where it does not, and why.
 #[derive(Debug, Clone)]
 pub struct Certificate {
@@ -70,7 +90,7 @@ pub struct Certificate {
     pub points: Vec<Reason>,
 }
 
-/// Certify `edges`, which are canonical and have been made smooth.
+/// Certify `edges`, which are canonical and have been made smooth; `known` is the crust, for those who have it.
 ///
 /// # Errors
 /// A cancelled `progress`.
@@ -79,26 +99,26 @@ pub fn certify(
     edges: &Edges,
     smooth: &Interpolant,
     theorems: &Theorems,
+    known: Option<Edges>,
     progress: &Progress,
 ) -> Result<Certificate> {
     let Measures { ratios, turns, degrees } = measure(delaunay, edges, smooth, progress)?;
-    let (theorem, proven) = theorem(delaunay, edges, smooth, theorems, progress)?;
+    let (theorem, crust) = theorem(delaunay, edges, smooth, theorems, known, progress)?;
     let threshold = match theorem {
         Some(Theorem::Crust) => theorems.of_crust,
         _ => theorems.of_skeleton,
     };
     // A sample angle is at least π less this (paper, Lemma 10).
     let most = 4.0 * libm::asin(threshold / 2.0);
-    let degree = |row: usize| reason_of_degree(degrees[row], turns[row] > most);
-    let mut points: Vec<Reason> = (0..degrees.len()).map(degree).collect();
-    for row in without(&proven, edges).flatten() {
+    let of_degree = |(&degree, &turn): (&u32, &f64)| reason_of_degree(degree, turn > most);
+    let mut points: Vec<Reason> = degrees.par_iter().zip(turns.par_iter()).map(of_degree).collect();
+    for row in crust.iter().flat_map(|crust| without(crust, edges)).flatten() {
         points[*row as usize] = points[*row as usize].max(Reason::Missing);
     }
-    let is_sparse =
-        |k: usize| ratios[k].is_nan() || (1.0 + theorems.margin) * ratios[k] >= threshold;
-    let mut of_edges: Vec<Reason> =
-        (0..edges.len()).map(|k| reason_of_edge(edges[k], &points, is_sparse(k))).collect();
-    for edge in without(edges, &proven) {
+    let is_sparse = |ratio: f64| ratio.is_nan() || (1.0 + theorems.margin) * ratio >= threshold;
+    let of_edge = |(&edge, &ratio): (&[u32; 2], &f64)| reason(edge, &points, is_sparse(ratio));
+    let mut of_edges: Vec<Reason> = edges.par_iter().zip(ratios.par_iter()).map(of_edge).collect();
+    for edge in crust.iter().flat_map(|crust| without(edges, crust)) {
         let k = edges.binary_search(edge).unwrap_or_default();
         of_edges[k] = Reason::Unselected;
     }
@@ -112,24 +132,25 @@ pub fn certify(
     Ok(Certificate { theorem, threshold, guaranteed, ratios, edges: of_edges, points })
 }
 
-/// The theorem about these edges, and the edges that a theorem is about.
+/// The theorem about these edges, or, if there is none, the crust, which they differ from.
 fn theorem(
     delaunay: &Delaunay,
     edges: &Edges,
     smooth: &Interpolant,
     theorems: &Theorems,
+    known: Option<Edges>,
     progress: &Progress,
-) -> Result<(Option<Theorem>, Edges)> {
+) -> Result<(Option<Theorem>, Option<Edges>)> {
     let is_skeleton = if delaunay.duplicates().is_empty() {
         is_beta_skeleton(delaunay, theorems.beta, smooth.curve(), progress)?
     } else {
         beta_skeleton(delaunay, theorems.beta, Kind::Circle, progress)? == *edges
     };
     if is_skeleton {
-        return Ok((Some(Theorem::BetaSkeleton), edges.clone()));
+        return Ok((Some(Theorem::BetaSkeleton), None));
     }
-    let crust = crust(delaunay, progress)?;
-    Ok(((crust == *edges).then_some(Theorem::Crust), crust))
+    let crust = known.map_or_else(|| crust(delaunay, progress), Ok)?;
+    Ok(if crust == *edges { (Some(Theorem::Crust), None) } else { (None, Some(crust)) })
 }
 
 fn reason_of_degree(degree: u32, is_corner: bool) -> Reason {
@@ -142,7 +163,7 @@ fn reason_of_degree(degree: u32, is_corner: bool) -> Reason {
     }
 }
 
-fn reason_of_edge(edge: [u32; 2], points: &[Reason], is_sparse: bool) -> Reason {
+fn reason(edge: [u32; 2], points: &[Reason], is_sparse: bool) -> Reason {
     let is_breaking = |reason: &Reason| (Reason::Corner..=Reason::Branch).contains(reason);
     let ends = edge.map(|row| points[row as usize]).into_iter().filter(is_breaking);
     let own = if is_sparse { Reason::Undersampled } else { Reason::None };

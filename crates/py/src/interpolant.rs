@@ -1,18 +1,19 @@
-//! The smooth interpolant of edges as a Python object: local feature sizes, and the measures of a certificate.
+//! The smooth interpolant of edges as a Python object: local feature sizes, and the certificate.
 
-use crate::arrays::{integers, rows, values};
+use crate::arrays::{rows, values};
 use crate::call::Call;
 use crate::delaunay::Delaunay;
 use crate::edges::canonical;
 use crate::threads::aside;
 use crustline_core as core;
-use crustline_core::certify::{Measures, measure};
+use crustline_core::certificate::{Reason, Theorem, Theorems, certify};
 use crustline_core::edges::Edges;
-use crustline_core::methods::{Kind, beta_skeleton, is_beta_skeleton};
 use numpy::{PyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 type Floats<'py> = Bound<'py, PyArray1<f64>>;
+type Codes<'py> = Bound<'py, PyArray1<u8>>;
+type Certified<'py> = (Option<&'static str>, bool, Floats<'py>, Codes<'py>, Codes<'py>);
 
 /// The local feature size of samples and edges, made once and read by many.
 #[pyclass(frozen, module = "crustline._core")]
@@ -50,46 +51,36 @@ impl Interpolant {
         Ok(edges.len() == self.edges.len() && self.edges.iter().zip(edges).all(same))
     }
 
-    /// Are the edges the β-skeleton of circles of the points?
-    #[pyo3(signature = (beta, threads=None, progress=None))]
-    fn is_beta_skeleton(
-        &self,
-        py: Python<'_>,
-        beta: f64,
-        threads: Option<usize>,
-        progress: Option<Py<PyAny>>,
-    ) -> PyResult<bool> {
-        let delaunay = self.delaunay.get().core();
-        let call = Call { size: delaunay.input_len(), threads, callback: progress };
-        call.run(py, |progress| {
-            if delaunay.duplicates().is_empty() {
-                is_beta_skeleton(delaunay, beta, self.inner.curve(), progress)
-            } else {
-                Ok(beta_skeleton(delaunay, beta, Kind::Circle, progress)? == self.edges)
-            }
-        })
-    }
-
     /// The local feature size at each row.
     fn sizes<'py>(&self, py: Python<'py>) -> PyResult<Floats<'py>> {
         let (delaunay, threads) = (self.delaunay.get().core(), self.delaunay.get().threads());
         Ok(values(py, aside(py, threads, || self.inner.at_rows(delaunay))?))
     }
 
-    /// The sampling ratio of each edge, and the turn and the degree of each row.
-    #[pyo3(signature = (threads=None, progress=None))]
-    #[allow(clippy::type_complexity)] // The tuple is in the order of its documentation.
-    fn measures<'py>(
+    /// The method that a theorem about the edges names, if there is one; is it fulfilled everywhere; the sampling ratio of
+    /// each edge; and by number why each edge and each row is weak. `crust` is the crust, if it is known.
+    #[pyo3(signature = (theorems, crust=None, threads=None, progress=None))]
+    fn certificate<'py>(
         &self,
         py: Python<'py>,
+        theorems: [f64; 4],
+        crust: Option<PyReadonlyArray2<'py, i64>>,
         threads: Option<usize>,
         progress: Option<Py<PyAny>>,
-    ) -> PyResult<(Floats<'py>, Floats<'py>, Bound<'py, PyArray1<i64>>)> {
+    ) -> PyResult<Certified<'py>> {
         let delaunay = self.delaunay.get().core();
-        let call = Call { size: delaunay.input_len(), threads, callback: progress };
-        let Measures { ratios, turns, degrees } =
-            call.run(py, |progress| measure(delaunay, &self.edges, &self.inner, progress))?;
-        let degrees = integers(py, degrees.into_iter().map(i64::from));
-        Ok((values(py, ratios), values(py, turns), degrees))
+        let [beta, of_skeleton, of_crust, margin] = theorems;
+        let theorems = Theorems { beta, of_skeleton, of_crust, margin };
+        let size = delaunay.input_len();
+        let crust =
+            crust.map(|edges| canonical(py, threads, rows(py, &edges)?, size)).transpose()?;
+        let call = Call { size, threads, callback: progress };
+        let found = call.run(py, |progress| {
+            certify(delaunay, &self.edges, &self.inner, &theorems, crust, progress)
+        })?;
+        let theorem = found.theorem.map(Theorem::method);
+        let codes = [found.edges, found.points].map(|reasons| values(py, Reason::codes(reasons)));
+        let [of_edges, of_points] = codes;
+        Ok((theorem, found.guaranteed, values(py, found.ratios), of_edges, of_points))
     }
 }

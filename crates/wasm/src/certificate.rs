@@ -45,20 +45,15 @@ impl Certificate {
             return Err(JsError::new(message));
         };
         let known = Theorems { beta, of_skeleton, of_crust, margin };
-        let found = run(|progress| core::certify(delaunay, edges, smooth, &known, progress))?;
-        let codes = |reasons: Vec<Reason>| reasons.into_iter().map(|reason| reason as u8).collect();
-        let theorem = match found.theorem {
-            Some(Theorem::Crust) => "crust",
-            Some(Theorem::BetaSkeleton) => "beta-skeleton",
-            None => "",
-        };
+        let found = run(|progress| core::certify(delaunay, edges, smooth, &known, None, progress))?;
+        let theorem = found.theorem.map_or("", Theorem::method);
         Ok(Self {
             theorem: theorem.to_owned(),
             threshold: found.threshold,
             guaranteed: found.guaranteed,
             ratios: found.ratios,
-            edge_reasons: codes(found.edges),
-            point_reasons: codes(found.points),
+            edge_reasons: Reason::codes(found.edges),
+            point_reasons: Reason::codes(found.points),
         })
     }
 }
