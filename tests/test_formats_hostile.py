@@ -125,8 +125,6 @@ def test_arrays_of_both_orders_and_ends_are_read(tmp_path: Path) -> None:
 
 
 FOREIGN = {
-    "PNG": b"\x89PNG\r\n\x1a\n",
-    "JPEG": b"\xff\xd8\xff\xe0",
     "PDF": b"%PDF-1.7",
     "LAS": b"LASF" + bytes(200),
     "HDF5": b"\x89HDF\r\n\x1a\n",
@@ -140,6 +138,7 @@ READABLE = {
     "GeoParquet": b"PAR1\x15", "GPX": b"<gpx>",
     "KML": b'<?xml version="1.0"?><!-- a --><kml xmlns="http://www.opengis.net/kml/2.2">',
     "DXF": b"  0\r\nSECTION\r\n  2\r\nHEADER\r\n",
+    "a picture": b"\xff\xd8\xff\xe0",
     "Excel": zipped(xl_workbook=b"?").replace(b"xl.workbook", b"xl/workbook"),
 }  # fmt: skip
 

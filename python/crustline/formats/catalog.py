@@ -7,6 +7,7 @@ from crustline.formats.dxf import DXF
 from crustline.formats.excel import EXCEL
 from crustline.formats.format import Format, Option
 from crustline.formats.geojson import GEOJSON
+from crustline.formats.image import IMAGE
 from crustline.formats.json_points import JSON
 from crustline.formats.npy import NPY, NPZ
 from crustline.formats.parquet import FEATHER, PARQUET
@@ -42,6 +43,7 @@ FORMATS = {
         FEATHER,
         DXF,
         EXCEL,
+        IMAGE,
     )
 }
 

@@ -44,6 +44,14 @@ def read(
         counted from 0. By default x and y, lon and lat, longitude and latitude, easting and
         northing, or e and n are found by name in any case, and z, elevation or height with them.
         Without a header the first two columns are x and y and the third is z.
+    mask, lines : bool, default False
+        Pictures: points of the boundary of a mask, or of the middles of strokes, in place of edges.
+    color : str or sequence of three numbers, optional
+        Pictures: the color of an area or, with `lines`, of strokes, such as "#d00".
+    axes : str or crustline.images.Axes, optional
+        Pictures of plots: what the axes show, such as "60,430=0,1 560,30=10,1e4 log=y".
+    pixels : bool, default False
+        Pictures: pixels in place of coordinates of the world. See `crustline.images`.
 
     Returns
     -------

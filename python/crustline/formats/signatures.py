@@ -7,13 +7,7 @@ import re
 __all__ = ["foreign", "known_archive"]
 
 _CONVERT = "save its points as CSV or GeoJSON"
-_PICTURE = "a picture: trace its outlines to points first"
 _SIGNATURES = (
-    (b"\x89PNG", f"a PNG file, {_PICTURE}"),
-    (b"\xff\xd8\xff", f"a JPEG file, {_PICTURE}"),
-    (b"GIF8", f"a GIF file, {_PICTURE}"),
-    (b"II*\x00", f"a TIFF file, {_PICTURE}"),
-    (b"MM\x00*", f"a TIFF file, {_PICTURE}"),
     (b"%PDF", "a PDF file: save its drawing as SVG or DXF"),
     (b"%!PS", "a PostScript file: save its drawing as SVG or DXF"),
     (b"LASF", f"a LAS or LAZ file: {_CONVERT}"),
