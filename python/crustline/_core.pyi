@@ -123,7 +123,10 @@ def stars(delaunay: Delaunay, rows: _Integers) -> tuple[_Integers, _Integers]: .
 def trace_tile(
     points: _Floats, edges: _Integers, cut: _Flags, numbers: _Integers
 ) -> tuple[
-    tuple[_Integers, _Integers, _Flags, _Integers], tuple[_Integers, _Integers], _Chains
+    _Integers,
+    tuple[_Integers, _Integers, _Flags, _Integers],
+    tuple[_Integers, _Integers],
+    _Chains,
 ]: ...
 def join_chains(
     sites: _Integers, places: _Floats, edges: _Integers, degrees: _Integers

@@ -38,7 +38,7 @@ pub fn trace(
     edges: impl AsRef<[[u32; 2]]>,
     progress: &Progress,
 ) -> Result<Curves> {
-    Ok(trace_between(points, edges, |_| false, progress)?.0)
+    Ok(trace_between(points, edges, |_| false, |row| row, progress)?.0)
 }
 
 /// The same, but for the isolated points.
@@ -51,28 +51,31 @@ pub fn trace_edges(
     progress: &Progress,
 ) -> Result<Curves> {
     let graph = graph(points, edges, progress)?;
-    Ok(follow(points, &graph, |_| false, progress)?.0.sorted())
+    Ok(follow(points, &graph, |_| false, |row| row, progress)?.0.sorted(|row| row))
 }
 
-/// The same for a part of all edges, which goes on at the rows that are `cut`.
+/// The same for a part of all edges, which goes on at the rows that are `cut`, and whose rows have a `number` each in the whole.
 ///
+/// Where curves start and in which order they come is settled by these numbers.
 /// The curves without a cut row, whole; and the runs of rows from a stop to a stop, where curves end or may go on, with a cut
 /// row at one end or both. They are not oriented; a run from a cut row to itself has it at both ends. A cut row is not isolated.
 ///
 /// # Errors
 /// A cancelled `progress`.
-pub fn trace_between(
+pub fn trace_between<N: Ord>(
     points: &[Point],
     edges: impl AsRef<[[u32; 2]]>,
     cut: impl Fn(u32) -> bool,
+    number: impl Fn(u32) -> N + Copy,
     progress: &Progress,
 ) -> Result<(Curves, Vec<Vec<u32>>)> {
     let graph = graph(points, edges, progress)?;
-    let (mut curves, runs) = follow(points, &graph, &cut, progress)?;
+    let (mut curves, runs) = follow(points, &graph, &cut, number, progress)?;
     curves.isolated = isolated(points, &graph);
     curves.isolated.retain(|&row| !cut(row));
+    curves.isolated.sort_unstable_by_key(|&row| number(row));
     drop(graph);
-    Ok((curves.sorted(), runs))
+    Ok((curves.sorted(number), runs))
 }
 
 fn graph(
@@ -87,13 +90,14 @@ fn graph(
 }
 
 /// The curves without a cut row, in the order in which they are met, and the runs.
-fn follow(
+fn follow<N: Ord>(
     points: &[Point],
     graph: &Incidence,
     cut: impl Fn(u32) -> bool,
+    number: impl Fn(u32) -> N,
     progress: &Progress,
 ) -> Result<(Curves, Vec<Vec<u32>>)> {
-    let mut walk = Walk { graph, cut, used: vec![false; graph.edges()], path: vec![] };
+    let mut walk = Walk { graph, cut, number, used: vec![false; graph.edges()], path: vec![] };
     let (mut curves, mut runs) = (Curves { offsets: vec![0], ..Curves::default() }, Vec::new());
     // From the stops first: what is left then are rings without one.
     for passes in [false, true] {
@@ -111,15 +115,16 @@ fn follow(
 }
 
 /// The state of the tracing.
-struct Walk<'a, C> {
+struct Walk<'a, C, F> {
     graph: &'a Incidence,
     cut: C,
+    number: F,
     used: Vec<bool>,
     /// The rows from one stop to the next, both included.
     path: Vec<u32>,
 }
 
-impl<C: Fn(u32) -> bool> Walk<'_, C> {
+impl<N: Ord, C: Fn(u32) -> bool, F: Fn(u32) -> N> Walk<'_, C, F> {
     /// Does a curve that comes to `row` go on there?
     fn passes(&self, row: u32) -> bool {
         self.graph.of(row).len() == 2 && !(self.cut)(row)
@@ -148,9 +153,9 @@ impl<C: Fn(u32) -> bool> Walk<'_, C> {
         let closed = first == last;
         if closed {
             self.path.pop();
-            orient_ring(points, &mut self.path);
+            orient_ring(points, &mut self.path, &self.number);
         } else {
-            orient_polyline(&mut self.path);
+            orient_polyline(&mut self.path, &self.number);
         }
         curves.indices.extend_from_slice(&self.path);
         curves.offsets.push(curves.indices.len());
@@ -174,13 +179,11 @@ fn isolated(points: &[Point], graph: &Incidence) -> Vec<u32> {
     for row in rows.filter(|row| !is_lone(row)) {
         first.remove(&key(row));
     }
-    let mut rows: Vec<u32> = first.into_values().collect();
-    rows.sort_unstable();
-    rows
+    first.into_values().collect()
 }
 
-fn orient_polyline(indices: &mut [u32]) {
-    if indices.first() > indices.last() {
+fn orient_polyline<N: Ord>(indices: &mut [u32], number: impl Fn(u32) -> N) {
+    if number(indices[0]) > number(indices[indices.len() - 1]) {
         indices.reverse();
     }
 }
@@ -189,9 +192,9 @@ fn orient_polyline(indices: &mut [u32]) {
 ///
 /// The turn at the lexicographically smallest point tells the direction of a simple polygon. Where it does not turn there,
 /// as on a ring in one line, the smaller neighbor of the first row comes second.
-fn orient_ring(points: &[Point], indices: &mut [u32]) {
+fn orient_ring<N: Ord>(points: &[Point], indices: &mut [u32], number: impl Fn(u32) -> N) {
     let count = indices.len();
-    let start = (0..count).min_by_key(|&k| indices[k]).unwrap_or(0);
+    let start = (0..count).min_by_key(|&k| number(indices[k])).unwrap_or(0);
     indices.rotate_left(start);
     let at = |k: usize| points[indices[k % count] as usize];
     let corner = (0..count).min_by(|&a, &b| lexicographic(&at(a), &at(b))).unwrap_or(0);
@@ -199,7 +202,7 @@ fn orient_ring(points: &[Point], indices: &mut [u32]) {
     let backward = match turn {
         Greater => false,
         Less => true,
-        Equal => indices[1] > indices[count - 1],
+        Equal => number(indices[1]) > number(indices[count - 1]),
     };
     if backward {
         indices[1..].reverse();
@@ -213,12 +216,13 @@ impl Curves {
         &self.indices[self.offsets[k]..self.offsets[k + 1]]
     }
 
-    /// The same curves, sorted by their rows.
-    fn sorted(self) -> Self {
+    /// The same curves, sorted by the numbers of their rows.
+    fn sorted<N: Ord>(self, number: impl Fn(u32) -> N) -> Self {
         let mut order: Vec<usize> = (0..self.closed.len()).collect();
-        order.sort_unstable_by(|&a, &b| self.curve(a).cmp(self.curve(b)));
-        let mut sorted =
-            Self { offsets: vec![0], isolated: self.isolated.clone(), ..Self::default() };
+        let numbers = |k: usize| self.curve(k).iter().map(|&row| number(row));
+        order.sort_unstable_by(|&a, &b| numbers(a).cmp(numbers(b)));
+        let isolated = self.isolated.clone();
+        let mut sorted = Self { offsets: vec![0], isolated, ..Self::default() };
         sorted.indices.reserve_exact(self.indices.len());
         for k in order {
             sorted.indices.extend_from_slice(self.curve(k));

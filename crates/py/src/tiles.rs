@@ -123,10 +123,11 @@ pub fn stars<'py>(
     Ok((integers(py, neighbors.into_iter()), integers(py, starts.into_iter())))
 }
 
-/// Trace the edges of a tile, canonical ones.
+/// Trace the edges of a tile.
 ///
-/// `cut` are flags of rows where curves may go on, `numbers` the rows in the whole. Returns the whole curves as `trace` does; the runs between cut
-/// vertices as `(rows, offsets)`; and their chains as `(sites (r, 10), places (10 r, 2), edges (r,))`.
+/// `cut` are flags of rows where curves may go on, `numbers` the rows in the whole. Returns the edges as such numbers, canonical; the whole curves
+/// as `trace` does, in the order of the numbers; the runs between cut vertices as `(rows, offsets)`; and their chains as
+/// `(sites (r, 10), places (10 r, 2), edges (r,))`.
 #[pyfunction]
 #[allow(clippy::type_complexity)] // Three ragged formats, in the order of their documentation.
 pub fn trace_tile<'py>(
@@ -136,6 +137,7 @@ pub fn trace_tile<'py>(
     cut: PyReadonlyArray1<'py, bool>,
     numbers: PyReadonlyArray1<'py, i64>,
 ) -> PyResult<(
+    Table<'py, i64>,
     (Integers<'py>, Integers<'py>, Bound<'py, PyArray1<bool>>, Integers<'py>),
     (Integers<'py>, Integers<'py>),
     Chains<'py>,
@@ -147,9 +149,12 @@ pub fn trace_tile<'py>(
         return Err(input_error(py, "there must be one flag and one number a row".to_owned()));
     }
     let call = Call { size: points.len(), threads: None, callback: None };
-    let (curves, runs) =
-        call.run(py, |progress| trace_between(points, &edges, |row| cut[row as usize], progress))?;
-    let site = |row: u32| Site { row: numbers[row as usize], at: points[row as usize] };
+    let number = |row: u32| numbers[row as usize];
+    let (curves, runs) = call.run(py, |progress| {
+        trace_between(points, &edges, |row| cut[row as usize], number, progress)
+    })?;
+    let pairs = tiles::numbered(&edges, numbers);
+    let site = |row: u32| Site { row: number(row), at: points[row as usize] };
     let chains = tiles::chains(&runs, site);
     let mut offsets = vec![0];
     offsets.extend(runs.iter().scan(0, |sum, run| {
@@ -159,6 +164,7 @@ pub fn trace_tile<'py>(
     let run_rows: Vec<i64> = runs.into_iter().flatten().map(i64::from).collect();
     let Curves { indices, offsets: starts, closed, isolated } = curves;
     Ok((
+        table(py, pairs)?,
         (
             integers(py, indices.into_iter().map(i64::from)),
             integers(py, starts.into_iter().map(|start| start as i64)),

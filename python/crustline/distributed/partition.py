@@ -90,7 +90,8 @@ def scatter(folder: Path, number: int, unit: str, cuts: str, first_row: int) -> 
             xy = record["xy"]
             leaf = tree.leaf_of(xy)
             sizes = np.bincount(leaf, minlength=tree.leaves)
-            order = np.argsort(leaf.astype(np.uint32), kind="stable")
+            # Of so few bits that NumPy sorts by digits, as a rule.
+            order = np.argsort(leaf.astype(np.min_scalar_type(tree.leaves)), kind="stable")
             yield {"xy": xy[order], "row": row + order, "ends": np.cumsum(sizes)}
             counts[:] += sizes
             row += len(xy)
@@ -167,42 +168,32 @@ def gather(folder: Path, tile: int, scattered: list[str], tile_points: int) -> A
     path = f"duplicates/part-{tile:06}.parquet"
     repeated = write(folder, path, lambda part: write_pairs(part, ("row", "first"), duplicates()))
     size = max(32, tile_points // 256)
-    starts = range(0, max(1, len(found.order)), size)
-    groups = [found.along_curve(start, start + size) for start in starts]
+    starts = range(0, max(1, len(found.points["row"])), size)
+    groups = [{n: a[start : start + size] for n, a in found.points.items()} for start in starts]
     about = {
         "bounds": np.array([around(group["xy"]) for group in groups]),
         "counts": np.array([len(group["row"]) for group in groups]),
     }
     written = write_records(folder, f"work/tiles/{tile:06}.arrow", groups)
     bounds = write_records(folder, f"work/tiles/{tile:06}.bounds", [about])
-    count = {"points": len(found.order), "duplicates": found.repeated}
+    count = {"points": len(found.points["row"]), "duplicates": found.repeated}
     return [repeated, written, bounds], count
 
 
 class _Distinct:
-    """Distinct points in the order of their rows, to which more are added."""
+    """Distinct points along the Z-order curve, to which more are added."""
 
     def __init__(self) -> None:
         self.points = _POINTS
-        self.order = np.empty(0, np.int64)
         self.repeated = 0
 
     def add(self, records: list[Arrays]) -> IntArray:
         """Add points of larger rows; return those that were there, each with its first row."""
         points = together([self.points, *records], _POINTS)
         first, duplicates = _core.z_order(points["xy"])
-        kept = np.sort(first)
-        self.points = {name: array[kept] for name, array in points.items()}
-        rank = np.empty(len(points["row"]), np.int64)
-        rank[kept] = np.arange(len(kept))
-        self.order = rank[first]
+        self.points = {name: array[first] for name, array in points.items()}
         self.repeated += len(duplicates)
         return points["row"][duplicates]
-
-    def along_curve(self, start: int, end: int) -> Arrays:
-        """Return a run of the points along the Z-order curve, in the order of their rows."""
-        run = np.sort(self.order[start:end])
-        return {name: array[run] for name, array in self.points.items()}
 
 
 def atlas(folder: Path, tiles: int) -> Any:

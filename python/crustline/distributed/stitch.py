@@ -37,7 +37,7 @@ class _Graph:
     row, xy : ndarray
         Of each vertex.
     edges : ndarray of int64, shape (m, 2)
-        As vertices, i < j in each row, sorted.
+        As vertices.
     cut : ndarray of bool
         The vertices where edges across tiles end.
     degrees : ndarray of int64
@@ -54,8 +54,9 @@ class _Graph:
 def _graph(folder: Path, tile: int, files: Iterable[str]) -> _Graph:
     points = Folder(folder).points(tile)
     across = _edges_of(folder, tile, files)
-    place = np.searchsorted(points["row"], across["rows"])
     is_own = across["tiles"] == tile
+    place = np.full(is_own.shape, -1)
+    place[is_own] = _places(points["row"], across["rows"][is_own])
     inner = is_own.all(axis=1)
     decided = Records(folder / f"work/decided/{tile:06}.arrow", ["own"], mapped=True)[0]["own"]
     own = np.concatenate([decided.astype(np.int64), place[inner]])
@@ -73,16 +74,20 @@ def _graph(folder: Path, tile: int, files: Iterable[str]) -> _Graph:
     return _Graph(
         np.concatenate([points["row"], foreign]),
         np.concatenate([points["xy"], across["places"][mine, 2:][firsts]]),
-        _sorted(np.concatenate([own, bridges]), count + len(foreign)),
+        np.concatenate([own, bridges]),
         flags,
         degrees,
     )
 
 
-def _sorted(edges: IntArray, vertices: int) -> IntArray:
-    """Return pairs of vertices, each once, sorted: as one number each, which is far quicker."""
-    keys = np.sort(edges[:, 0] * vertices + edges[:, 1])
-    return np.stack(np.divmod(keys[np.diff(keys, prepend=-1) > 0], vertices), axis=1)
+def _places(rows: IntArray, wanted: IntArray) -> IntArray:
+    """Return where the wanted rows, far fewer, are among all."""
+    few, which = np.unique(wanted, return_inverse=True)
+    found = np.searchsorted(few, rows)
+    here = np.flatnonzero(few[found % max(1, len(few))] == rows) if len(few) else few
+    places = np.empty(len(few), np.int64)
+    places[found[here]] = here
+    return places[which]
 
 
 def _edges_of(folder: Path, tile: int, files: Iterable[str]) -> Arrays:
@@ -100,8 +105,9 @@ def trace(folder: Path, tile: int, files: list[str], crs: Any) -> Any:
     `files` are all that may hold edges across tiles that end in this one.
     """
     graph = _graph(folder, tile, files)
-    edges = _in_row_order(graph)
-    whole, (run, offsets), chains = _core.trace_tile(graph.xy, graph.edges, graph.cut, graph.row)
+    edges, whole, (run, offsets), chains = _core.trace_tile(
+        graph.xy, graph.edges, graph.cut, graph.row
+    )
     record = {"rows": graph.row[run], "xy": graph.xy[run], "offsets": offsets}
     record |= dict(zip(("sites", "places", "counts"), chains, strict=True))
     record["degrees"] = _degrees(graph, run[np.concatenate([offsets[:-1], offsets[1:] - 1])])
@@ -121,20 +127,6 @@ def trace(folder: Path, tile: int, files: list[str], crs: Any) -> Any:
     ]
     counts = {"edges": len(edges), "curves": len(whole[2]), "isolated": len(whole[3])}
     return written, counts | {"chains": len(chains[2])}
-
-
-def _in_row_order(graph: _Graph) -> IntArray:
-    """Return the edges as rows, sorted.
-
-    Vertices of the tile come in the order of their rows, and so do those of other tiles after them;
-    only where a vertex has neighbors of both kinds must its edges change places.
-    """
-    rows = graph.row[graph.edges]
-    bridged = np.zeros(len(graph.row), bool)
-    bridged[graph.edges[graph.edges[:, 1] >= len(graph.degrees), 0]] = True
-    mixed = np.flatnonzero(bridged[graph.edges[:, 0]])
-    rows[mixed] = rows[mixed[np.lexsort((rows[mixed, 1], rows[mixed, 0]))]]
-    return rows
 
 
 def _degrees(graph: _Graph, ends: IntArray) -> IntArray:

@@ -46,11 +46,9 @@ class Folder:
         return [records[number] for number in numbers]
 
     def points(self, tile: int) -> Arrays:
-        """Return all points of a tile in the order of their rows."""
+        """Return all points of a tile, along the Z-order curve: in memory, near is near."""
         records = Records(self.path / f"work/tiles/{tile:06}.arrow")
-        points = together(records, {"xy": np.empty((0, 2)), "row": np.empty(0, np.int64)})
-        order = np.argsort(points["row"], kind="stable")
-        return {name: array[order] for name, array in points.items()}
+        return together(records, {"xy": np.empty((0, 2)), "row": np.empty(0, np.int64)})
 
 
 @lru_cache(maxsize=4)

@@ -61,6 +61,18 @@ pub fn chains(runs: &[Vec<u32>], site: impl Fn(u32) -> Site) -> Vec<Chain> {
     runs.iter().map(chain).collect()
 }
 
+/// Edges between local rows as pairs of their `numbers` in the whole, smaller first, sorted.
+#[must_use]
+pub fn numbered(edges: &[[u32; 2]], numbers: &[i64]) -> Vec<[i64; 2]> {
+    let number = |&[p, q]: &[u32; 2]| {
+        let [i, j] = [p, q].map(|row| numbers[row as usize]);
+        [i.min(j), i.max(j)]
+    };
+    let mut pairs: Vec<[i64; 2]> = edges.iter().map(number).collect();
+    pairs.sort_unstable();
+    pairs
+}
+
 impl Chain {
     fn step(from: Site, to: Site) -> Self {
         Self { ends: [from, to], next: [to, from], least: None, lowest: None, edges: 1 }

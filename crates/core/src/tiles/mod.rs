@@ -17,7 +17,7 @@ mod reach;
 mod rule;
 mod unseen;
 
-pub use chains::{Chain, Joined, Site, chains, join};
+pub use chains::{Chain, Joined, Site, chains, join, numbered};
 pub use decide::{Candidates, Decide, Decision, Question, candidates, decide, stars};
 pub use disk::Disk;
 pub use reach::Partners;

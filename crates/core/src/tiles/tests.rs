@@ -413,8 +413,9 @@ fn traced(world: &World, edges: &Edges) -> Vec<(Vec<u32>, bool)> {
     let (mut found, mut runs, mut all) = (Vec::new(), Vec::new(), Vec::new());
     for k in 0..world.tiles {
         let own: Edges = edges.iter().copied().filter(|edge| tile(edge[0]) == k).collect();
+        let is_cut = |row: u32| cut.contains(&row);
         let (curves, more) =
-            trace_between(&world.points, &own, |row| cut.contains(&row), &progress).unwrap();
+            trace_between(&world.points, &own, is_cut, |row| row, &progress).unwrap();
         let run = |k: usize| curves.indices[curves.offsets[k]..curves.offsets[k + 1]].to_vec();
         found.extend((0..curves.closed.len()).map(|k| (run(k), curves.closed[k])));
         all.extend(chains(&more, site));
