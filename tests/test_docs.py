@@ -12,8 +12,10 @@ import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+import crustline as cl
 from crustline.cli import commands as entry
 from crustline.cli import main
 
@@ -69,14 +71,27 @@ def readers_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         shutil.copy(ROOT / "examples" / "goose.csv", tmp_path / name)
     shutil.copy(ROOT / "examples" / "new_zealand.csv", tmp_path / "islands.csv")
     shutil.copy(ROOT / "examples" / "tracks.csv", tmp_path / "tracks.csv")
+    draw_goose(tmp_path / "photo.png")
     monkeypatch.chdir(tmp_path)
+
+
+def draw_goose(path: Path) -> None:
+    """Write a picture of the goose, if there is what draws it."""
+    drawing = pytest.importorskip("PIL.ImageDraw")
+    goose = cl.reconstruct(cl.read(ROOT / "examples" / "goose.csv"))
+    corners = goose.points.xy[goose.polygons()[0].shell]
+    corners = (corners - corners.min(axis=0)) / np.ptp(corners, axis=0).max()
+    picture = drawing.Image.new("L", (400, 400), 60)
+    places = (20 + 360 * corners * (1, -1) + (0, 360)).tolist()
+    drawing.Draw(picture).polygon([(x, y) for x, y in places], fill=230)
+    picture.save(path)
 
 
 @pytest.mark.usefixtures("readers_folder")
 @pytest.mark.parametrize("name", ["README.md", "docs/tutorial.md", *TUTORIALS])
 def test_what_the_page_shows_is_what_happens(name, capfd):
     modules = (
-        ("geopandas", "ezdxf") if name in TUTORIALS else ("matplotlib", "scipy", "svgelements")
+        ("geopandas", "ezdxf") if name in TUTORIALS else ("matplotlib", "skimage", "svgelements")
     )
     for module in modules:
         pytest.importorskip(module)
