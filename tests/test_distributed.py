@@ -240,6 +240,15 @@ def test_overfull_tiles_are_cut_again(client, tmp_path, monkeypatch):
     agrees(result, xy)
 
 
+def test_pieces_are_regrouped_where_tiles_are_many(client, tmp_path, monkeypatch):
+    monkeypatch.setattr(run, "_DIRECT", 3)
+    xy = half_repeated(900, np.random.default_rng(27))
+    source = put(tmp_path / "in", xy, files=3, group=40)
+    result = reconstruct(source, tmp_path / "out", client=client, tile_points=60)
+    assert 1 < result.report["stages"]["regroup"]["steps"] < result.counts["tiles"]
+    agrees(result, xy)
+
+
 def test_a_run_that_has_ended_is_not_done_again(client, tmp_path):
     source = put(tmp_path / "in", coast(300, np.random.default_rng(8)))
     options = {"client": client, "tile_points": 100}

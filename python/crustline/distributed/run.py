@@ -10,6 +10,7 @@ import json
 import shutil
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
+from math import isqrt
 from pathlib import Path
 from typing import Any
 
@@ -29,11 +30,13 @@ Arguments = dict[str, Any]
 
 #: The least points of a piece: each tile takes its part of every piece, however small it is.
 _PIECE = 50_000
+#: The most tiles of which each is gathered from all pieces itself.
+_DIRECT = 64
 #: How many files of chains one step joins.
 _FAN_IN = 64
 #: What the files of a run take at most beside the copy of the coordinates, for each point: while
-#: tiles are gathered twice 24 bytes, at the end some 35 of the result and 33 of the tiles.
-_BYTES = 70
+#: tiles are gathered three times 24 bytes, at the end some 35 of the result and 33 of the tiles.
+_BYTES = 75
 
 
 @dataclass(frozen=True)
@@ -162,12 +165,32 @@ def _scatter_and_gather(run: Run, given: Input, settings: Settings) -> None:
         if balanced.counts["tiles"] == tiles:
             break
         generation, cuts, tiles = generation + 1, balanced.files[0].path, balanced.counts["tiles"]
-    about = {"scattered": paths, "tile_points": size}
-    run.stage("gather", partition.gather, {t: {"tile": t} | about for t in range(tiles)})
+    about = _regroup(run, paths, tiles, max(size, _PIECE))
+    arguments = {t: {"tile": t, "tile_points": size} | about[t] for t in range(tiles)}
+    run.stage("gather", partition.gather, arguments)
     run.one("atlas", partition.atlas, tiles=tiles)
     for folder in run.folder.glob("work/*"):
-        if folder.name == "read" or folder.name.startswith("scatter-"):
+        if folder.name.startswith(("read", "scatter-", "regrouped")):
             shutil.rmtree(folder)
+
+
+def _regroup(run: Run, scattered: list[str], tiles: int, piece: int) -> list[Arguments]:
+    """Return for each tile the files that hold it, and the first tile in these."""
+    if tiles <= _DIRECT:
+        return [{"scattered": scattered, "first_tile": 0}] * tiles
+    width = isqrt(tiles)
+    runs = [range(first, min(first + width, tiles)) for first in range(0, tiles, width)]
+    about = {"scattered": scattered, "piece": piece}
+    done = run.stage(
+        "regroup",
+        partition.regroup,
+        {n: {"number": n, "tiles": each} | about for n, each in enumerate(runs)},
+    )
+    return [
+        {"scattered": [each.files[0].path], "first_tile": run_of.start}
+        for each, run_of in zip(done, runs, strict=True)
+        for _ in run_of
+    ]
 
 
 def _units(run: Run, given: Input, size: int) -> dict[int, Arguments]:
