@@ -85,6 +85,18 @@ def test_reasons() -> None:
     assert "gap" in cl.connection(circle(100)[:84]).left_out_reasons
 
 
+@pytest.mark.parametrize("count", [12, 25, 40])
+def test_a_coarse_ring_among_outliers_is_no_row_of_outliers(count: int) -> None:
+    """Counters of letters, of few points beside an outline of many, used to be dropped whole."""
+    rng = np.random.default_rng(count)
+    outline, inner = 12 * circle(170), 3 * circle(count) * rng.uniform(0.95, 1.05, (count, 1))
+    lone = np.array([(7, 0), (0, 8), (-7, -2), (2, -7), (16, 3), (-14, 9), (0, -15)])
+    edges = cl.connect(np.concatenate([outline, inner, lone]))
+    joined = np.bincount(edges.ravel(), minlength=170 + count + len(lone))
+    assert (joined[: 170 + count] == 2).all()
+    assert not joined[170 + count :].any()
+
+
 def test_only_connect_says_how_sure_it_is() -> None:
     with pytest.raises(cl.InputError, match="only connect"):
         _ = cl.Reconstruction(circle(8), cl.crust).connection

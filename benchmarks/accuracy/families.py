@@ -171,6 +171,21 @@ def _among_outliers(rng: Rng, share: float) -> Samples:
     return with_outliers(even(outline, int(rng.integers(60, 200)), rng, jitter=0.1), share, rng)
 
 
+def several_outliers(rng: Rng) -> Samples:
+    """The same with 2 to 30 % outliers, and 1 to 3 smaller rings and lines beside it, of 0.08 to 0.8 its size."""
+    outlines = [blob(rng) if rng.random() < 0.5 else drawing(rng, 0.3)]
+    step = length(outlines[0]) / int(rng.integers(60, 200))
+    for k in range(1, int(rng.integers(2, 5))):
+        outline = blob(rng) if rng.random() < 0.5 else drawing(rng, 0.3, bool(rng.random() < 0.7))
+        place = (2.6 * k, rng.uniform(-1, 1))
+        outlines.append(outline.moved(rng.uniform(0.08, 0.8), rng.uniform(0, 6), place))
+    counts = [max(8, round(length(one) / step / rng.uniform(0.5, 1.5))) for one in outlines]
+    parts = [
+        even(one, count, rng, jitter=0.1) for one, count in zip(outlines, counts, strict=True)
+    ]
+    return with_outliers(joined(parts), rng.uniform(0.02, 0.3), rng)
+
+
 def jitter(rng: Rng) -> Samples:
     """A blob or drawing of 40 to 200 points, moved along by up to 0 to 30 % of the step."""
     outline = blob(rng) if rng.random() < 0.5 else drawing(rng, 0.3)
@@ -263,6 +278,7 @@ FAMILIES: dict[str, Family] = {
     "arc": open_arc,
     "dashes": dashes,
     "outliers to 30 %": outliers,
+    "outliers, several curves": several_outliers,
     "jitter": jitter,
     "noise to 0.15": noise,
     "density": density,

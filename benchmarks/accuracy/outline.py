@@ -73,7 +73,8 @@ def smooth(vertices: Array, closed: bool = True, sharp: NDArray[np.bool_] | None
     points = hermite.reshape(-1, 2)
     if not closed:
         points = np.concatenate([points, vertices[-1:]])
-    return Outline(points, closed, tuple((np.flatnonzero(sharp[: len(at)]) * FINE).tolist()))
+    corners = [v for v in at.tolist() if sharp[v] and (closed or v > 0)]
+    return Outline(points, closed, tuple(v * FINE for v in corners))
 
 
 def arc(degrees: float, radius: float = 1.0) -> Outline:

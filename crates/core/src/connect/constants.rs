@@ -47,12 +47,10 @@ pub struct Constants {
     pub rough_least: f64,
     /// Where steps change by this logarithm at most points, lengths weigh half: nearly twofold.
     pub rough_step: f64,
-    /// Components whose steps are at least this part of the distances between isolated points may be outliers in a row …
-    pub prune_step: f64,
-    /// … and are if they cost at least this part of an isolated point each …
-    pub prune_cost: f64,
-    /// … and have less than this part of the points of the largest component, or fewer than `SMALL`.
-    pub prune_size: f64,
+    /// Components are outliers in a row if their median step, as a part of the median distance of isolated points, …
+    pub stray: f64,
+    /// … is at least `stray` (less for few points) over this and what steps and directions change from one to the next.
+    pub stray_base: f64,
 }
 
 /// The constants in use.
@@ -78,9 +76,8 @@ pub const CONSTANTS: Constants = Constants {
     rough_excess: 2.0,
     rough_least: 0.02,
     rough_step: 0.64,
-    prune_step: 0.23,
-    prune_cost: 0.3,
-    prune_size: 0.33,
+    stray: 0.6,
+    stray_base: 0.3,
 };
 
 /// Edges that cost more than this are no candidates: to leave one out costs at most two ends, which is 2.
@@ -121,8 +118,6 @@ pub const CONVERGED: f32 = 3e-2;
 pub const FEWEST: usize = 4;
 /// How many isolated points it takes to prune at all.
 pub const PRUNE_FROM: usize = 3;
-/// Components of fewer points than this may be outliers in a row however large the others are.
-pub const SMALL: usize = 16;
 /// The sampling ratio at which the crust is proven (paper, §8).
 pub const PROVEN: f64 = 0.252;
 /// By how much the estimate of that ratio may be too small.

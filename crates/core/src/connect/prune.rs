@@ -1,6 +1,6 @@
 //! Outliers that were joined to each other: small components are dropped where points are isolated.
 
-use super::constants::{Constants, FEWEST, PRUNE_FROM, SMALL};
+use super::constants::{Constants, FEWEST, PRUNE_FROM};
 use super::messages::Factors;
 use super::rings::median;
 use super::selection::Selection;
@@ -16,10 +16,7 @@ pub fn prune(factors: &Factors<'_>, constants: &Constants, selection: &mut Selec
         return;
     }
     let apart = median(&mut distances).unwrap_or_default();
-    let components = components(factors, selection);
-    let most = components.iter().map(Vec::len).max().unwrap_or_default() as f64;
-    let limit = (most * constants.prune_size).max(SMALL as f64);
-    for component in components.iter().filter(|component| (component.len() as f64) < limit) {
+    for component in &components(factors, selection) {
         if !is_kept(factors, component)
             && is_outlier(factors, selection, component, apart, constants)
         {
@@ -89,6 +86,8 @@ pub fn is_kept(factors: &Factors<'_>, component: &[usize]) -> bool {
     component.iter().any(|&v| candidates.from(v).any(|e| candidates.is_kept(e)))
 }
 
+/// Outliers in a row are as far apart as those alone, and neither their steps nor their directions go on from one to the next.
+/// Medians, so that corners and single gaps do not tell.
 fn is_outlier(
     factors: &Factors<'_>,
     selection: &Selection,
@@ -99,25 +98,23 @@ fn is_outlier(
     if component.len() < FEWEST {
         return true;
     }
-    let mut steps = Vec::new();
-    let mut cost = 0.0;
+    let Factors { candidates, spacing, turns, .. } = factors;
+    let [mut steps, mut changes, mut bends] = [const { Vec::new() }; 3];
     for &v in component {
-        cost += f64::from(vertex_cost(factors, selection, v));
-        for e in selection.from(factors.candidates, v) {
-            // Both ends of each edge are here.
-            cost += f64::from(factors.costs.edges[e]) / 2.0;
-            steps.push(factors.spacing.distance(v, factors.candidates.ends[e] as usize));
+        for e in selection.from(candidates, v) {
+            steps.push(spacing.distance(v, candidates.ends[e] as usize));
+        }
+        if let Some(pair) = selection.pair(candidates, v) {
+            let [a, b] = pair.map(|k| spacing.lengths[candidates.from(v).start + k]);
+            changes.push(f64::from((a - b).abs()));
+            bends.push(f64::from(turns.of(v, pair)));
         }
     }
-    median(&mut steps).is_some_and(|step| step >= constants.prune_step * apart)
-        && cost >= constants.prune_cost * constants.alone * component.len() as f64
-}
-
-fn vertex_cost(factors: &Factors<'_>, selection: &Selection, v: usize) -> f32 {
-    let Factors { candidates, spacing, turns, costs } = factors;
-    let Some(pair) = selection.pair(candidates, v) else { return costs.ends[v] };
-    let lengths = pair.map(|k| spacing.lengths[candidates.from(v).start + k]);
-    costs.pair(v, turns.of(v, pair), lengths)
+    let [step, change, bend] =
+        [steps, changes, bends].map(|mut own| median(&mut own).unwrap_or_default());
+    // Few points go on like a curve by chance, many do not.
+    let few = 2.0 / component.len() as f64;
+    step * (constants.stray_base + change + bend) >= constants.stray * (1.0 - few) * apart
 }
 
 /// Take all edges of a component out.
