@@ -172,7 +172,7 @@ def _among_outliers(rng: Rng, share: float) -> Samples:
 
 
 def several_outliers(rng: Rng) -> Samples:
-    """The same with 2 to 30 % outliers, and 1 to 3 smaller rings and lines beside it, of 0.08 to 0.8 its size."""
+    """The same, with 2 to 30 % outliers, beside 1 to 3 rings and lines of 0.08 to 0.8 its size."""
     outlines = [blob(rng) if rng.random() < 0.5 else drawing(rng, 0.3)]
     step = length(outlines[0]) / int(rng.integers(60, 200))
     for k in range(1, int(rng.integers(2, 5))):

@@ -16,12 +16,14 @@ pub fn prune(factors: &Factors<'_>, constants: &Constants, selection: &mut Selec
         return;
     }
     let apart = median(&mut distances).unwrap_or_default();
-    for component in &components(factors, selection) {
-        if !is_kept(factors, component)
-            && is_outlier(factors, selection, component, apart, constants)
-        {
-            drop_edges(factors, selection, component);
-        }
+    let (outliers, curves): (Vec<_>, Vec<_>) = components(factors, selection)
+        .into_iter()
+        .partition(|component| is_outlier(factors, selection, component, apart, constants));
+    // Where most points would go there is no curve for them to be out of: noise, a cloud.
+    let points = |of: &[Vec<usize>]| of.iter().map(Vec::len).sum::<usize>();
+    let is_noise = points(&outliers) > points(&curves);
+    for component in outliers.iter().filter(|own| own.len() < FEWEST || !is_noise) {
+        drop_edges(factors, selection, component);
     }
 }
 
@@ -95,6 +97,9 @@ fn is_outlier(
     apart: f64,
     constants: &Constants,
 ) -> bool {
+    if is_kept(factors, component) {
+        return false;
+    }
     if component.len() < FEWEST {
         return true;
     }
