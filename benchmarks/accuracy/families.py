@@ -180,9 +180,7 @@ def several_outliers(rng: Rng) -> Samples:
         place = (2.6 * k, rng.uniform(-1, 1))
         outlines.append(outline.moved(rng.uniform(0.08, 0.8), rng.uniform(0, 6), place))
     counts = [max(8, round(length(one) / step / rng.uniform(0.5, 1.5))) for one in outlines]
-    parts = [
-        even(one, count, rng, jitter=0.1) for one, count in zip(outlines, counts, strict=True)
-    ]
+    parts = [even(one, count, rng, jitter=0.1) for one, count in zip(outlines, counts, strict=True)]
     return with_outliers(joined(parts), rng.uniform(0.02, 0.3), rng)
 
 
