@@ -15,6 +15,7 @@ import openpyxl
 import pandas
 import polars
 import pyarrow
+import pyarrow.parquet
 import pyogrio
 import pytest
 import shapely
@@ -529,3 +530,81 @@ def test_what_gdal_cannot_hold_is_text(tmp_path: Path) -> None:
     back = cl.read(tmp_path / "a.gpkg").columns
     assert back["id"].tolist() == ["18446744073709551615"]
     assert back["t"][0].startswith("32140-01-02")
+
+
+SHAPES = {
+    "point": ["POINT Z (1 2 3)", None, "POINT EMPTY", "POINT Z (4 5 6)"],
+    "linestring": ["LINESTRING (0 0, 1 0, 2 1)", None, "LINESTRING (5 5, 6 5, 6 6, 5 5)"],
+    "multipoint": ["MULTIPOINT ((0 0), (1 0))", "MULTIPOINT EMPTY", "MULTIPOINT ((5 5))"],
+    "polygon": ["POLYGON ((0 0, 9 0, 9 9, 0 0), (2 1, 3 1, 3 2, 2 1))", None],
+    "multilinestring": ["MULTILINESTRING ((0 0, 1 0), (5 5, 6 5, 6 6))"],
+    "multipolygon": ["MULTIPOLYGON (((0 0, 1 0, 1 1, 0 0)), ((5 5, 6 5, 6 6, 5 5)))", None],
+}
+
+
+@pytest.mark.parametrize("kind", SHAPES)
+@pytest.mark.parametrize("interleaved", [False, True])
+@pytest.mark.parametrize("by", ["GeoParquet", "GeoArrow"])
+def test_geoarrow_is_read_as_wkb_is(tmp_path: Path, kind: str, interleaved: bool, by: str) -> None:
+    """GeoPandas writes the same geometries in both ways; with the encoding of GeoArrow, refused."""
+    frame = geopandas.GeoDataFrame(
+        {"n": range(len(SHAPES[kind]))}, geometry=shapely.from_wkt(SHAPES[kind]), crs=25832
+    )
+    frame.to_parquet(tmp_path / "wkb.parquet")
+    if by == "GeoArrow" or interleaved:
+        table = pyarrow.table(frame.to_arrow(geometry_encoding="geoarrow", interleaved=interleaved))
+        pyarrow.parquet.write_table(table, tmp_path / "nested.parquet")
+    else:
+        frame.to_parquet(tmp_path / "nested.parquet", geometry_encoding="geoarrow")
+    plain, nested = (cl.read(tmp_path / f"{name}.parquet") for name in ("wkb", "nested"))
+    assert nested == plain
+    assert nested.crs == "EPSG:25832"
+    one, other = (cl.read_curves(tmp_path / f"{name}.parquet") for name in ("wkb", "nested"))
+    assert one == other
+
+
+def test_an_unknown_encoding_of_geometries_is_refused(tmp_path: Path) -> None:
+    field = pyarrow.field(
+        "geometry", pyarrow.binary(), metadata={"ARROW:extension:name": "geoarrow.box"}
+    )
+    table = pyarrow.table([pyarrow.array([b"a"])], schema=pyarrow.schema([field]))
+    pyarrow.parquet.write_table(table, tmp_path / "a.parquet")
+    with pytest.raises(cl.FormatError, match="geometries are box"):
+        cl.read(tmp_path / "a.parquet")
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "kept"),
+    [
+        ("a b", [1, 2], "a_b"),
+        ("<x>", ["a", "b"], "_x_"),
+        ("x/y", [1.5, 2.5], "x_y"),
+        ("time", ["noon", "night"], "input_time"),
+        ("sat", [1.5, 2.5], "input_sat"),
+        ("hdop", ["good", "bad"], "input_hdop"),
+        ("name", [1, 2], "input_name"),
+        ("ele", [7.5, 8.5], "input_ele"),
+        ("ogr_a", [1, 2], "input_ogr_a"),
+        ("track_fid", [1, 2], "input_track_fid"),
+        ("large", [2**40, 1], "large"),
+    ],
+)
+@pytest.mark.parametrize("z", [None, [3.5, 4.5]])
+def test_gpx_keeps_odd_columns(
+    tmp_path: Path, name: str, values: list[object], kept: str, z: list[float] | None
+) -> None:
+    """No XML came of odd names; what GPX has of its own took no other type, and lost it."""
+    points = cl.Points([(8, 47), (9, 48)], z=z, columns={name: values}, crs="EPSG:4326")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        cl.write(points, tmp_path / "a.gpx")
+    assert bool(caught) == ("_" in kept and not kept.startswith("input"))
+    back = cl.read(tmp_path / "a.gpx")
+    assert {key: column.tolist() for key, column in back.columns.items()} == {kept: values}
+    assert (back.z is None) if z is None else back.z.tolist() == z
+
+
+def test_whole_numbers_that_gpx_loses_are_refused(tmp_path: Path) -> None:
+    points = cl.Points([(8, 47)], columns={"id": [2**60 + 1]}, crs="EPSG:4326")
+    with pytest.raises(InputError, match="beyond 2⁵³"):
+        cl.write(points, tmp_path / "a.gpx")

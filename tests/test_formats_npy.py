@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -9,7 +11,7 @@ from hypothesis import strategies as st
 
 from crustline.curves import trace
 from crustline.errors import FormatError
-from crustline.formats import read, write
+from crustline.formats import read, read_curves, write
 from crustline.points import Points
 
 FLOATS = st.floats(allow_nan=False, allow_infinity=False)
@@ -123,3 +125,57 @@ def test_reading_gives_back_what_was_written(tmp_path_factory, rows):
     with np.load(path) as archive:
         for name in ("indices", "offsets", "closed", "isolated"):
             assert np.array_equal(archive[name], getattr(curves, name))
+
+
+def test_fields_of_a_structured_array_are_columns(tmp_path):
+    """Names that are no Latin-1 are what NumPy writes version 3 of the format for."""
+    fields = [("größe", "f8"), ("x", "f4"), ("y", "i8"), ("名", "U2"), ("both", "f8", (2,))]
+    array = np.zeros(3, dtype=fields)
+    array["x"], array["y"], array["名"] = [0.5, 1, 2], [3, 4, 5], ["a", "é", "名"]
+    with pytest.warns(UserWarning, match="format 3"):
+        np.save(tmp_path / "p.npy", array)
+    assert (tmp_path / "p.npy").read_bytes()[6] == 3
+    points = read(tmp_path / "p.npy")
+    assert points.xy.tolist() == [[0.5, 3], [1, 4], [2, 5]]
+    assert list(points.columns) == ["größe", "名"]
+    assert points.columns["名"].tolist() == ["a", "é", "名"]
+    assert read(tmp_path / "p.npy", columns=("y", "größe")).xy.tolist() == [[3, 0], [4, 0], [5, 0]]
+
+
+@pytest.mark.parametrize("version", [(1, 0), (2, 0), (3, 0)])
+def test_every_version_of_the_format_is_read(tmp_path, version):
+    with open(tmp_path / "p.npy", "wb") as file:
+        np.lib.format.write_array(file, np.eye(3, 2), version=version)
+    assert read(tmp_path / "p.npy").xy.tolist() == np.eye(3, 2).tolist()
+
+
+def test_text_of_no_characters_is_refused(tmp_path):
+    """NumPy raised a SystemError for it, and that only when it was looked at."""
+    no_text = np.array([0x110000, 0x41], dtype="<u4").view("<U1")
+    np.savez(tmp_path / "p.npz", x=[1, 2], y=[3, 4], name=no_text)
+    with pytest.raises(FormatError, match=r"'name'.*no character"):
+        read(tmp_path / "p.npz")
+
+
+@pytest.mark.parametrize("orient", [None, "ccw", "cw", "rfc7946", "gis"])
+@pytest.mark.parametrize("start", [None, (1, 1), "east"])
+def test_archives_keep_directions_and_starts(tmp_path, orient, start):
+    """They were traced anew, which forgot both."""
+    square = np.array([(0, 0), (9, 0), (9, 9), (0, 9)])
+    points = np.concatenate([square, square / 3 + 2, [(20, 0), (21, 1), (22, 0), (30, 30)]])
+    edges = [(0, 1), (1, 2), (2, 3), (0, 3), (4, 5), (5, 6), (6, 7), (4, 7), (8, 9), (9, 10)]
+    curves = trace(points, edges).oriented(orient, start=start)
+    curves = dataclasses.replace(curves, confidence=np.linspace(0, 1, 10))
+    write(curves, tmp_path / "c.npz")
+    found = read_curves(tmp_path / "c.npz")
+    assert found == curves
+    assert found.orient == orient
+
+
+def test_rows_that_are_no_order_along_the_edges_are_traced_anew(tmp_path):
+    curves = trace([(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1), (1, 2), (2, 3), (0, 3)])
+    arrays = {"points": curves.points.xy, "offsets": curves.offsets, "closed": curves.closed}
+    np.savez(tmp_path / "c.npz", indices=[1, 2, 3, 0], isolated=curves.isolated, **arrays)
+    assert read_curves(tmp_path / "c.npz")[0].indices.tolist() == [1, 2, 3, 0]
+    np.savez(tmp_path / "c.npz", indices=[3, 2, 1, 0], isolated=curves.isolated, **arrays)
+    assert read_curves(tmp_path / "c.npz")[0].indices.tolist() == [0, 1, 2, 3]

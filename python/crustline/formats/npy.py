@@ -6,11 +6,13 @@ import io
 import math
 import zipfile
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from crustline.arrays import read_only
 from crustline.curves import Curves, trace
 from crustline.errors import FormatError
 from crustline.formats.attributes import attributes_of_points
@@ -20,24 +22,32 @@ from crustline.formats.options import COLUMNS
 from crustline.formats.packed import refuse_bomb
 from crustline.formats.source import Source
 from crustline.formats.target import Target
+from crustline.orientation import ORIENTATIONS, arranged
 from crustline.points import Points
 
 Array = npt.NDArray[Any]
 _PREFIX = "columns/"
+# Version 3 differs from 2 in the encoding of names alone, which `_names_of` sees to.
 _HEADERS = {
     (1, 0): np.lib.format.read_array_header_1_0,
     (2, 0): np.lib.format.read_array_header_2_0,
+    (3, 0): np.lib.format.read_array_header_2_0,
 }
 _RESULT = ("indices", "offsets", "closed", "isolated")
+_BESIDE = (*_RESULT, "orient", "confidence")
+_LAST_CHARACTER = 0x10FFFF
 
 
 def read_npy(source: Source, *, columns: Sequence[str | int] | None = None) -> Points:
-    """Return the points of one array of shape (n, 2), or (n, 3) with heights."""
+    """Return the points of one array (n, 2), (n, 3) with heights, or (n,) with fields x and y."""
     content = source.content()
     if content.startswith(b"PK"):
         raise FormatError(f"{source.name} is an NPZ archive, not an NPY file: choose format npz")
     _check_magic(content, b"\x93NUMPY", source)
     array = _array(content, source, "")
+    if array.ndim == 1 and array.dtype.names is not None:
+        fields = zip(_names_of(array.dtype, content), array.dtype.names, strict=True)
+        return _from_arrays({name: array[field] for name, field in fields}, source, columns)
     if array.ndim != 2 or array.shape[1] < 2 or (columns is None and array.shape[1] > 3):
         raise FormatError(
             f"{source.name} has the shape {array.shape}, not (n, 2) or (n, 3): "
@@ -59,7 +69,37 @@ def read_npz_curves(source: Source) -> Curves:
         raise source.error(f"it holds no curves, only {quote_all(list(arrays))}: read its points")
     edges = _edges(arrays["indices"], arrays["offsets"], arrays["closed"], source)
     with source.named():
-        return trace(_points_of(arrays, source, None), edges)
+        curves = trace(_points_of(arrays, source, None), edges)
+    sure = arrays.get("confidence", np.empty(0))
+    if sure.shape == (len(curves.edges),) and sure.dtype == np.float64:
+        curves = replace(curves, confidence=sure)
+    orient = _as_word(arrays.get("orient"))
+    return _as_stored(curves, arrays["indices"], orient if orient in ORIENTATIONS else None)
+
+
+def _as_stored(curves: Curves, indices: Array, orient: str | None) -> Curves:
+    """Return curves in the directions, and from the starts, that they were written with."""
+    if not len(curves) or len(indices) != len(curves.indices):
+        return curves
+    sizes, starts = np.diff(curves.offsets), curves.offsets[:-1]
+    first = curves.indices == np.repeat(indices[starts], sizes)
+    place = np.flatnonzero(first)
+    if (
+        len(place) != len(curves)
+        or (np.repeat(np.arange(len(curves)), sizes)[place] != np.arange(len(curves))).any()
+    ):
+        return curves
+    ways = [
+        np.logical_and.reduceat(
+            arranged(curves.indices, curves.offsets, place - starts, np.full(len(curves), way))
+            == indices,
+            starts,
+        )
+        for way in (False, True)
+    ]
+    if not (ways[0] | (ways[1] & (~curves.closed | (orient is not None)))).all():
+        return curves
+    return replace(curves, indices=read_only(indices.astype(np.int64)), orient=orient)
 
 
 def _points_of(
@@ -69,7 +109,7 @@ def _points_of(
     arrays = {name: array for name, array in arrays.items() if name not in ("crs", "names")}
     if "points" in arrays and columns is None:
         if set(_RESULT) <= arrays.keys():  # a result of ours: a ring of n points is no column
-            arrays = {name: array for name, array in arrays.items() if name not in _RESULT}
+            arrays = {name: array for name, array in arrays.items() if name not in _BESIDE}
         points = _with_columns(arrays, names, source)
     else:
         points = _from_arrays(arrays, source, columns)
@@ -92,8 +132,9 @@ def _edges(indices: Array, offsets: Array, closed: Array, source: Source) -> Arr
 
 def write_npz_curves(curves: Curves, target: Target) -> None:
     """Write the curves as an archive of arrays, with the points in the order of the input."""
-    result = {name: getattr(curves, name) for name in _RESULT}
-    target.write(_archive({"points": curves.points.xy, **result, **_carried(curves.points)}))
+    result = {name: getattr(curves, name) for name in _BESIDE}
+    known = {name: np.asarray(each) for name, each in result.items() if each is not None}
+    target.write(_archive({"points": curves.points.xy, **known, **_carried(curves.points)}))
 
 
 def write_npy(points: Points, target: Target) -> None:
@@ -163,14 +204,31 @@ def _array(content: bytes, source: Source, name: str) -> Array:
         advice = "it holds Python objects, which are not read: save numbers or text"
         raise source.error(advice, place)
     count, rest = math.prod(shape), len(content) - stream.tell()
-    if dtype.names is not None or count * dtype.itemsize != rest or (count and not dtype.itemsize):
+    if (dtype.names and place) or count * dtype.itemsize != rest or (count and not dtype.itemsize):
         raise source.error(
             f"the header says {dtype} of shape {shape}, which the {rest} bytes after it are not: "
             "save it again",
             place,
         )
     array = np.frombuffer(content, dtype, count, stream.tell()) if count else np.empty(0, dtype)
+    for each in map(array.__getitem__, dtype.names) if dtype.names else [array]:
+        if each.dtype.kind == "U" and _has_no_characters(each):
+            raise source.error("its text holds what is no character: write it again", place)
     return array.reshape(shape, order="F" if columns_first else "C")
+
+
+def _has_no_characters(text: Array) -> bool:
+    """Return whether text holds numbers that are none of characters, which Python cannot take."""
+    code = np.dtype(np.uint32).newbyteorder(text.dtype.byteorder)
+    return bool((np.ascontiguousarray(text).view(code) > _LAST_CHARACTER).any())
+
+
+def _names_of(dtype: np.dtype[Any], content: bytes) -> list[str]:
+    """Return the names of fields: UTF-8 in files of version 3, which was read as Latin-1."""
+    names = list(dtype.names or ())
+    if content[6] < 3:
+        return names
+    return [name.encode("latin-1").decode("utf-8", "replace") for name in names]
 
 
 def _as_word(array: Array | None) -> str | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,8 +17,9 @@ from crustline.formats.arrow import as_table, as_wkb, column_of, points_of_wkb
 from crustline.formats.attributes import attributes_of_points, table_of
 from crustline.formats.features import curve_columns
 from crustline.formats.format import Format
-from crustline.formats.geometries import from_wkb, geometries_of, vertices_of
-from crustline.formats.names import find_coordinates
+from crustline.formats.geoarrow import ENCODINGS, extension_of, vertices_of_nested
+from crustline.formats.geometries import Vertices, from_wkb, geometries_of, vertices_of
+from crustline.formats.names import find_coordinates, quote_all
 from crustline.formats.options import COLUMNS, POLYGONS
 from crustline.formats.source import Source
 from crustline.formats.target import Target
@@ -70,10 +72,9 @@ def read_curves(source: Source) -> Curves:
     about = _geometry(table, source)
     if about is None:
         raise source.error("it is a table without geometries: read points from it")
-    name, crs = about
-    with source.named(), source.library("shapely"):
-        found = vertices_of(from_wkb(table.column(name)))
-        return found.curves(found.points(_columns(table, [name]), crs))
+    with source.named(), source.library("pyarrow"):
+        found = _vertices(table.column(about.name), about.encoding)
+        return found.curves(found.points(_columns(table, [about.name, "bbox"]), about.crs))
 
 
 def _sound(table: Any) -> Any:
@@ -87,30 +88,37 @@ def _points(table: Any, source: Source, columns: Chosen) -> Points:
     with source.named():
         if about is None:
             return points_of_table(table, source, columns)
-        return _of(table, source, *about)
+        return _of(table, source, about)
 
 
-def _of(table: Any, source: Source, name: str, crs: str | None) -> Points:
-    array = table.column(name)
-    at_once, rest = points_of_wkb(array), _columns(table, [name, "bbox"])
+def _of(table: Any, source: Source, about: _Geometry) -> Points:
+    array, crs = table.column(about.name), about.crs
+    rest = _columns(table, [about.name, "bbox"])
+    at_once = points_of_wkb(array) if about.encoding == "wkb" else None
     if at_once is None:
-        with source.library("shapely"):
-            found = vertices_of(from_wkb(array))
+        with source.library("pyarrow"):
+            found = _vertices(array, about.encoding)
         points = found.points(rest, crs)
         counts = np.bincount(found.owners, minlength=len(array))
-        return points.replace(columns={**points.columns, **_lists_a_vertex(table, counts)})
+        return points.replace(
+            columns={**points.columns, **_lists_a_vertex(table, about.name, counts)}
+        )
     return own_points(at_once[0], z=at_once[1], columns=rest, crs=crs)
 
 
-def _lists_a_vertex(table: Any, counts: IntArray) -> dict[str, npt.NDArray[Any]]:
+def _lists_a_vertex(table: Any, geometry: str, counts: IntArray) -> dict[str, npt.NDArray[Any]]:
     """Return the columns of lists that have a value for each vertex, spread over them."""
     import pyarrow as pa
 
-    lists = [each.name for each in table.schema if pa.types.is_list(each.type)]
+    lists = {
+        each.name: table.column(each.name).combine_chunks()
+        for each in table.schema
+        if pa.types.is_list(each.type) and each.name != geometry
+    }
     return {
-        name: column_of(pa.compute.list_flatten(table.column(name)).combine_chunks())
-        for name in lists
-        if (table.column(name).combine_chunks().value_lengths().to_numpy() == counts).all()
+        name: column_of(pa.compute.list_flatten(array))
+        for name, array in lists.items()
+        if (array.value_lengths().fill_null(0).to_numpy() == counts).all()
     }
 
 
@@ -149,27 +157,63 @@ def _columns(table: Any, left_out: Sequence[str]) -> dict[str, npt.NDArray[Any]]
     return {name: column_of(table.column(name).combine_chunks()) for name in names}
 
 
-def _geometry(table: Any, source: Source) -> tuple[str, str | None] | None:
-    """Return the name of the column of geometries and their CRS, as the metadata give them."""
+@dataclass(frozen=True)
+class _Geometry:
+    """The column of geometries: its name, CRS, and how it holds them, in lower case."""
+
+    name: str
+    crs: str | None
+    encoding: str
+
+
+def _geometry(table: Any, source: Source) -> _Geometry | None:
+    """Return what the metadata of GeoParquet, or else of GeoArrow, say of geometries."""
     text = (table.schema.metadata or {}).get(b"geo")
     if text is None:
-        return None
+        return _extension(table, source)
     try:
         about = json.loads(text)
         name = about["primary_column"]
         column = about["columns"][name]
-        encoding = column["encoding"]
-    except (ValueError, KeyError, TypeError):
+        encoding = str(column["encoding"]).lower()
+        crs = column.get("crs", "OGC:CRS84")
+    except (ValueError, KeyError, TypeError, AttributeError):
         raise source.error("its GeoParquet metadata are damaged: write it again") from None
-    if encoding != "WKB" or name not in table.column_names:
-        raise source.error(f"its geometries are {encoding!s:.20}, not WKB: write it as WKB")
-    return name, _crs_name(column.get("crs", "OGC:CRS84"))
+    if name not in table.column_names:
+        raise source.error(f"its geometries, {name!r:.40}, are not there: write it again")
+    return _Geometry(name, _crs_name(crs), _known(encoding, source))
+
+
+def _extension(table: Any, source: Source) -> _Geometry | None:
+    found = [(field.name, about) for field in table.schema if (about := extension_of(field))]
+    if len(found) > 1:
+        names = quote_all([name for name, _ in found])
+        raise source.error(f"it has the geometries {names}: keep one column of them")
+    for name, (encoding, crs) in found:
+        return _Geometry(name, _crs_name(crs), _known(encoding, source))
+    return None
+
+
+def _known(encoding: str, source: Source) -> str:
+    if encoding not in ("wkb", "wkt", *ENCODINGS):
+        raise source.error(f"its geometries are {encoding!s:.20}: write them as WKB")
+    return encoding
+
+
+def _vertices(array: Any, encoding: str) -> Vertices:
+    if encoding == "wkb":
+        return vertices_of(from_wkb(array))
+    if encoding == "wkt":
+        import shapely
+
+        return vertices_of(shapely.from_wkt(array.to_numpy()))
+    return vertices_of_nested(array, encoding)
 
 
 def _crs_name(crs: Any) -> str | None:
     if crs is None or isinstance(crs, str):
         return crs
-    authority = crs.get("id", {})
+    authority = crs.get("id") or {}
     if {"authority", "code"} <= authority.keys():
         return f"{authority['authority']}:{authority['code']}"
     import pyproj

@@ -23,6 +23,7 @@ from crustline.formats.attributes import attributes_of_points
 from crustline.formats.features import curve_columns
 from crustline.formats.format import Format, Layer
 from crustline.formats.geometries import from_wkb, geometries_of, vertices_of
+from crustline.formats.gpx import as_extensions
 from crustline.formats.names import apart, quote_all
 from crustline.formats.options import LAYER, POLYGONS, WHERE
 from crustline.formats.source import Source
@@ -75,7 +76,7 @@ class _Driver:
     lonlat : bool
         Whether it knows longitude and latitude on WGS 84 only.
     narrow : bool
-        Whether its whole numbers have 32 bits.
+        Whether its whole numbers have 32 bits; columns with larger ones are written as text.
     clockwise : bool
         Whether the outsides of its polygons run clockwise, however they are given.
     """
@@ -184,8 +185,12 @@ class _Driver:
     def write_points(self, points: Points, target: Target) -> None:
         """Write a row a point."""
         points = self._ready(points)
-        if self.height and points.z is not None:
-            points = points.replace(columns={self.height: points.z, **points.columns})
+        if self.height:
+            own = {k: v for k, v in points.columns.items() if k != self.height}
+            if len(own) < len(points.columns):
+                own[f"input_{self.height}"] = points.columns[self.height]
+            heights = {} if points.z is None else {self.height: points.z}
+            points = points.replace(columns={**heights, **own})
         self._write([_points_part(points, target)], points.crs, target)
 
     def write_curves(self, curves: Curves, target: Target, *, polygons: bool = False) -> None:
@@ -259,6 +264,7 @@ class _Driver:
         """Return a table with names, widths of whole numbers, and texts that the format takes."""
         import pyarrow as pa
 
+        table = as_extensions(table, self.height) if self.fixed else table
         table = table.rename_columns(apart(table.column_names))
         for k, column in enumerate(table.columns):
             kind = column.type
@@ -269,13 +275,10 @@ class _Driver:
             table = self._without_long_texts(table, target)
         if self.narrow:
             for k, column in enumerate(table.columns):
-                if (
-                    pa.types.is_integer(column.type)
-                    and pa.compute.all(
-                        pa.compute.equal(column, column.cast(pa.int32(), safe=False))
-                    ).as_py()
-                ):
-                    table = table.set_column(k, table.column_names[k], column.cast(pa.int32()))
+                if pa.types.is_integer(column.type):
+                    alike = pa.compute.equal(column, column.cast(pa.int32(), safe=False))
+                    kind = pa.int32() if pa.compute.all(alike).as_py() else pa.string()
+                    table = table.set_column(k, table.column_names[k], column.cast(kind))
         return table
 
     def _without_long_texts(self, table: Any, target: Target) -> Any:
