@@ -218,6 +218,7 @@ def test_help_has_an_example_that_runs(run, goose, tmp_path, command):
     lines = [line.split() for line in out.splitlines() if line.strip().startswith("crustline ")]
     assert lines
     (tmp_path / "scan.csv").write_bytes((tmp_path / "goose.csv").read_bytes())
+    (tmp_path / "lake.wkt").write_text("POLYGON ((0 0, 10 0, 10 1, 0 1, 0 0))")
     for words in lines:
         needed = {"plot": ["matplotlib"], "smooth": ["scipy"], "reconstruct": ["scipy"]}
         for module in needed.get(command, []):
@@ -509,3 +510,17 @@ def test_starting_is_quick():
     code = "import sys, crustline.cli; print(*sorted(sys.modules))"
     loaded = subprocess.check_output([sys.executable, "-c", code], text=True).split()
     assert not {"rich", "matplotlib", "scipy", "json.tool", "xml"} & set(loaded)
+
+
+def test_a_polygon_has_a_center_line(run, tmp_path):
+    """Of its corners alone it had 0 inner edges, and nothing said what to do."""
+    (tmp_path / "lake.wkt").write_text("POLYGON ((0 0, 10 0, 10 1, 0 1, 0 0))")
+    code, _, err = run("medial-axis", "lake.wkt")
+    assert code == 0
+    assert "add --edges-from-file" in err
+    code, _, err = run("medial-axis", "lake.wkt", "--edges-from-file", "-o", "axis.wkt")
+    assert code == 0
+    assert not err.startswith("lake.wkt: 0 inner edges")
+    for options in (["--accuracy", "0.1"], ["--edges-from-file", "--outer"]):
+        code, _, err = run("medial-axis", "lake.wkt", *options)
+        assert (code, err.count("\n")) == (2, 1)

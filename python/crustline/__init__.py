@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from crustline import distributed, shapes, theory
     from crustline._core import __version__
+    from crustline.center_line import center_line
     from crustline.certify import Certificate, certify
     from crustline.connection import Connection, connection
     from crustline.curves import Curve, Curves, Polygon, trace
@@ -63,6 +64,7 @@ if TYPE_CHECKING:
 #: Where the public names are; a test holds this against what type checkers are told above.
 _NAMES = {
     "_core": "__version__",
+    "center_line": "center_line",
     "certify": "Certificate certify",
     "connection": "Connection connection",
     "curves": "Curve Curves Polygon trace",
@@ -149,6 +151,7 @@ __all__ = [
     "beta_of",
     "beta_skeleton",
     "by_group",
+    "center_line",
     "certify",
     "close_gaps",
     "compatible_crust",

@@ -227,6 +227,34 @@ class MedialAxis(Record):
             ray_samples=self.ray_samples[rays],
         )
 
+    def part(self, where: Literal["inner", "outer"]) -> MedialAxis:
+        """Return only the edges within the rings, or only those, and the rays, without.
+
+        Parameters
+        ----------
+        where : {"inner", "outer"}
+
+        Returns
+        -------
+        medial_axis : MedialAxis
+            The vertices are all kept.
+
+        Examples
+        --------
+        >>> axis = medial_axis([(0, 0), (2, 0), (0, 1), (2, 1)], [])
+        >>> len(axis.part("outer").ray_origins), len(axis.part("inner").ray_origins)
+        (4, 0)
+        """
+        inner = as_choice("where", where, ("inner", "outer")) == "inner"
+        kept = self.inner == inner
+        chosen: dict[str, Any] = {
+            name: getattr(self, name)[kept] for name in ("edges", "samples", "inner")
+        }
+        if inner:
+            rays = ("ray_origins", "ray_directions", "ray_samples")
+            chosen |= {name: getattr(self, name)[:0] for name in rays}
+        return replace(self, **chosen)
+
     def curves(self, box: npt.ArrayLike | None = None) -> Curves:
         """Return the axis in a box, traced: polylines between its ends and branches, and rings.
 

@@ -2,28 +2,66 @@
 
 from __future__ import annotations
 
+import functools
+import warnings
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 import numpy as np
 
+from crustline.cli.hints import Command
 from crustline.cli.method import Method, fit_options, method_options
 from crustline.cli.output import Output, counted, output_options
 from crustline.cli.reconstruct import reconstruction
 from crustline.cli.source import Source, source_options
-from crustline.errors import InputError
+from crustline.errors import CrustlineError, FormatWarning, InputError
 from crustline.scalars import as_length
 
 if TYPE_CHECKING:
     from crustline.medial_axis import MedialAxis
 
 
+def polygon_options(command: Command) -> Command:
+    """Give a command --edges-from-file and --accuracy; it takes `accuracy`, None without them."""
+
+    @click.option("--edges-from-file", is_flag=True,
+                  help="Take the rings that the file holds for polygons: the axis is that of their "
+                  "sides, the center line, and its inner part.")  # fmt: skip
+    @click.option("--accuracy", type=float, metavar="A",
+                  help="With --edges-from-file, how far the axis may be off, as a part of the "
+                  "local width. [default: 0.01]")  # fmt: skip
+    @functools.wraps(command)
+    def run(edges_from_file: bool, accuracy: float | None, **rest: Any) -> None:
+        if accuracy is not None and not edges_from_file:
+            raise InputError("--accuracy is for --edges-from-file: add that")
+        command(accuracy=(0.01 if accuracy is None else accuracy) if edges_from_file else None,
+                **rest)  # fmt: skip
+
+    return run
+
+
+def part_options(command: Command) -> Command:
+    """Give a command --inner and --outer; it takes `part`, None for both."""
+
+    @click.option("--inner", is_flag=True, help="Only what is inside of the rings.")
+    @click.option("--outer", is_flag=True, help="Only what is outside of the rings.")
+    @functools.wraps(command)
+    def run(inner: bool, outer: bool, **rest: Any) -> None:
+        if inner and outer:
+            raise InputError(
+                "--inner and --outer exclude each other: give neither for the whole axis"
+            )
+        command(part="inner" if inner else "outer" if outer else None, **rest)
+
+    return run
+
+
 @click.command("medial-axis")
 @source_options
 @output_options("write_curves")
-@click.option("--inner", is_flag=True, help="Only what is inside of the rings.")
-@click.option("--outer", is_flag=True, help="Only what is outside of the rings.")
+@polygon_options
+@part_options
 @click.option(
     "--prune", "at_least", type=float, default=0.0, metavar="LENGTH",
     help="Leave out what stands for less than this of the curve, in the unit of the points: "
@@ -40,8 +78,8 @@ if TYPE_CHECKING:
 def medial_axis(
     source: Source,
     output: Output,
-    inner: bool,
-    outer: bool,
+    accuracy: float | None,
+    part: Literal["inner", "outer"] | None,
     at_least: float,
     box: str | None,
     method: Method,
@@ -53,15 +91,54 @@ def medial_axis(
 
     \b
         crustline medial-axis goose.csv -o axis.geojson --inner --prune 2
+        crustline medial-axis lake.wkt --edges-from-file -o axis.wkt --prune 0.5
     """
     corners = None if box is None else _corners(box)
     at_least = as_length("--prune", at_least)
-    if inner and outer:
-        raise InputError("--inner and --outer exclude each other: give neither for the whole axis")
-    part = "inner" if inner else "outer" if outer else None
-    with reconstruction(source, method, output.quiet) as made:
-        axis = _part(made.medial_axis.prune(at_least), part)
+    if accuracy is not None:
+        axis = _center_line(source, method, accuracy, part).prune(at_least)
+    else:
+        with reconstruction(source, method, output.quiet) as made:
+            axis = made.medial_axis.prune(at_least)
+        _warn_of_polygons(source, axis)
+    axis = axis.part(part) if part else axis
     output.write(axis.curves(corners))
+    _report(source, method, axis, output)
+
+
+def _center_line(source: Source, method: Method, accuracy: float, part: str | None) -> MedialAxis:
+    from crustline.center_line import center_line
+    from crustline.projection import project
+
+    if method.name != "connect" or method.parameters or method.fit or part == "outer":
+        raise InputError(
+            "--edges-from-file takes the edges of the file, and has their inner axis: leave "
+            "--outer, and what is for a method, away"
+        )
+    curves = source.read_curves()
+    if method.project is not None:
+        curves = replace(curves, points=project(curves.points, method.project))
+    return center_line(curves, accuracy=accuracy)
+
+
+def _warn_of_polygons(source: Source, axis: MedialAxis) -> None:
+    """Say what to add where a file holds polygons, of which the corners alone were looked at."""
+    if axis.inner.any() or source.name == "-":
+        return
+    try:
+        closed = source.read_curves().closed.any()
+    except CrustlineError:
+        return
+    if closed:
+        warnings.warn(
+            f"{source.name}: the file holds rings, and the points on them are too far apart for an "
+            "axis: add --edges-from-file for that of their sides",
+            FormatWarning,
+            stacklevel=2,
+        )
+
+
+def _report(source: Source, method: Method, axis: MedialAxis, output: Output) -> None:
     inside = int(np.count_nonzero(axis.inner))
     counts = {
         "inner_edges": inside,
@@ -71,22 +148,8 @@ def medial_axis(
     words = ("inner edge", "outer edge", "ray")
     output.report(
         f"{source.name}: {', '.join(map(counted, counts.values(), words))}",
-        {"input": source.name, "method": method.name, "points": len(made.points), **counts},
+        {"input": source.name, "method": method.name, "points": len(axis.points), **counts},
     )
-
-
-def _part(axis: MedialAxis, part: str | None) -> MedialAxis:
-    """Return the axis with its inner or its outer edges only; rays are outer ones."""
-    if part is None:
-        return axis
-    kept = axis.inner if part == "inner" else ~axis.inner
-    chosen: dict[str, Any] = {
-        name: getattr(axis, name)[kept] for name in ("edges", "samples", "inner")
-    }
-    if part == "inner":
-        rays = ("ray_origins", "ray_directions", "ray_samples")
-        chosen |= {name: getattr(axis, name)[:0] for name in rays}
-    return replace(axis, **chosen)
 
 
 def _corners(text: str) -> list[float]:
