@@ -72,6 +72,7 @@ def readers_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     shutil.copy(ROOT / "examples" / "new_zealand.csv", tmp_path / "islands.csv")
     shutil.copy(ROOT / "examples" / "tracks.csv", tmp_path / "tracks.csv")
     draw_goose(tmp_path / "photo.png")
+    (tmp_path / "lake.wkt").write_text("POLYGON ((0 0, 40 3, 78 -6, 80 4, 42 13, 0 9, 0 0))")
     monkeypatch.chdir(tmp_path)
 
 

@@ -591,7 +591,7 @@ def test_an_unknown_encoding_of_geometries_is_refused(tmp_path: Path) -> None:
 )
 @pytest.mark.parametrize("z", [None, [3.5, 4.5]])
 def test_gpx_keeps_odd_columns(
-    tmp_path: Path, name: str, values: list[object], kept: str, z: list[float] | None
+    tmp_path: Path, name: str, values: list[str] | list[float], kept: str, z: list[float] | None
 ) -> None:
     """No XML came of odd names; what GPX has of its own took no other type, and lost it."""
     points = cl.Points([(8, 47), (9, 48)], z=z, columns={name: values}, crs="EPSG:4326")

@@ -177,7 +177,8 @@ def _at_a_corner(sides: _Sides, delaunay: Delaunay, places: IntArray) -> BoolArr
     """Return whether the sample across is on a side that meets the piece's own."""
     own = sides.corners[sides.pieces].reshape(-1, 4)
     across = sides.corners[_apex(delaunay, places)]
-    return (own[:, :, None] == across[:, None, :]).any(axis=(1, 2))
+    near: BoolArray = (own[:, :, None] == across[:, None, :]).any(axis=(1, 2))
+    return near
 
 
 def _cut(sides: _Sides, counts: IntArray) -> _Sides:
