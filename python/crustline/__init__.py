@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from crustline.reconstruction import Reconstruction, reconstruct
     from crustline.shapes.ratio import is_r_sample, sampling_ratio
     from crustline.shapes.sampling import Sample, r_sample, sample_for_error
+    from crustline.slices import Plane, Slice, Slices, section, slices
     from crustline.smooth import Spline, Splines, smooth
     from crustline.stability import beta_interval, beta_of, max_edge_interval
     from crustline.theory import guaranteed_r
@@ -87,6 +88,7 @@ _NAMES = {
     "reconstruction": "Reconstruction reconstruct",
     "shapes.ratio": "is_r_sample sampling_ratio",
     "shapes.sampling": "Sample r_sample sample_for_error",
+    "slices": "Plane Slice Slices section slices",
     "stability": "beta_interval beta_of max_edge_interval",
     "smooth": "Spline Splines smooth",
     "theory": "guaranteed_r",
@@ -138,10 +140,13 @@ __all__ = [
     "MedialAxis",
     "Merged",
     "MissingExtraError",
+    "Plane",
     "Points",
     "Polygon",
     "Reconstruction",
     "Sample",
+    "Slice",
+    "Slices",
     "Spline",
     "Splines",
     "__version__",
@@ -186,8 +191,10 @@ __all__ = [
     "relative_neighborhood",
     "sample_for_error",
     "sampling_ratio",
+    "section",
     "shapes",
     "sig_delaunay",
+    "slices",
     "smooth",
     "theory",
     "thin",

@@ -133,6 +133,9 @@ class Curves(Record, Sequence[Curve]):
         The rule that rings were oriented by; None is as `trace` left them.
     confidence : ndarray of float64, shape (m,), optional
         How likely each of `edges` is right, if that is known: see `Connection.curves`.
+    shells : ndarray of int64, shape (c,), optional
+        For each ring its shell, itself if it is one, and -1 for a polyline, where that was decided
+        elsewhere than in x and y: in the plane of a slice. By default the points decide.
 
     Examples
     --------
@@ -150,6 +153,7 @@ class Curves(Record, Sequence[Curve]):
     isolated: IntArray
     orient: str | None = None
     confidence: FloatArray | None = None
+    shells: IntArray | None = None
 
     def __len__(self) -> int:
         return len(self.closed)
@@ -238,6 +242,8 @@ class Curves(Record, Sequence[Curve]):
     @cached_property
     def _shells(self) -> IntArray:
         """For each ring its shell, itself if it is one; -1 for a polyline."""
+        if self.shells is not None:
+            return self.shells
         shells: IntArray = _core.shells(self.points.xy, self.indices, self.offsets, self.closed)
         return shells
 

@@ -15,6 +15,7 @@ from crustline.cli.method import Method, fit_options, method_options
 from crustline.cli.orientation import Orientation, orientation_options
 from crustline.cli.output import Output, counted, output_options
 from crustline.cli.progress import progress_bar
+from crustline.cli.slices import slice_options
 from crustline.cli.source import Source, source_options
 from crustline.errors import FormatWarning, InputError
 from crustline.formats.names import quote_all
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
               help="Say how sure each edge is, in GeoJSON, and the whole; of connect.")  # fmt: skip
 @method_options
 @fit_options
+@slice_options
 def reconstruct(
     source: Source,
     output: Output,
@@ -50,7 +52,9 @@ def reconstruct(
     """Find the curves that points were sampled from.
 
     INPUT is a file of points; - is standard input. Writes rings and lines, each in order, with the
-    heights, columns and CRS of their points.
+    heights, columns and CRS of their points. With --slice or --section, INPUT is a cloud of points
+    in space or a mesh, and the curves are those in which planes cut it; several planes make a file
+    of layers.
 
     \b
         crustline reconstruct goose.csv -o goose.geojson -o goose.svg

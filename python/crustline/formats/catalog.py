@@ -9,6 +9,7 @@ from crustline.formats.format import Format, Option
 from crustline.formats.geojson import GEOJSON
 from crustline.formats.image import IMAGE
 from crustline.formats.json_points import JSON
+from crustline.formats.las import LAS, LAZ
 from crustline.formats.npy import NPY, NPZ
 from crustline.formats.parquet import FEATHER, PARQUET
 from crustline.formats.signatures import foreign
@@ -44,6 +45,8 @@ FORMATS = {
         DXF,
         EXCEL,
         IMAGE,
+        LAS,
+        LAZ,
     )
 }
 

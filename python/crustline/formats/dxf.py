@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from itertools import chain
 from typing import Any
@@ -27,6 +27,7 @@ _MOST_ENTITIES = 1_000_000
 #: How far a chord is from an arc or spline that it stands for, as a part of the curve's extent.
 _FLATNESS = 1 / 1000
 _UNITS = {"mm": 4, "cm": 5, "m": 6, "km": 7, "in": 1, "ft": 2, "": 0}
+_REFUSED = '<>/\\":;?*|=,`'
 _LAYERS = {"RINGS": 5, "HOLES": 1, "OPEN": 3, "POINTS": 7}
 
 
@@ -194,15 +195,42 @@ def write_points(points: Points, target: Target, *, unit: str = "") -> None:
 def write_curves(curves: Curves, target: Target, *, unit: str = "") -> None:
     """Write a polyline a curve, on the layers RINGS, HOLES and OPEN; isolated points on POINTS."""
     drawing = _drawing(unit)
-    space = drawing.modelspace()
+    _add_curves(drawing.modelspace(), curves)
+    _save(drawing, target)
+
+
+def write_layers(things: Mapping[str, Points | Curves], target: Target, *, unit: str = "") -> None:
+    """Write each thing on a layer of its own; rings, holes and open lines by their colors."""
+    drawing = _drawing(unit)
+    for name, thing in zip(_layer_names(things), things.values(), strict=True):
+        drawing.layers.add(name)
+        if isinstance(thing, Points):
+            _add_points(drawing.modelspace(), thing, np.arange(len(thing)), name)
+        else:
+            _add_curves(drawing.modelspace(), thing, name)
+    _save(drawing, target)
+
+
+def _layer_names(things: Mapping[str, Any]) -> list[str]:
+    """Return names that DXF allows, each once."""
+    names: list[str] = []
+    for name in things:
+        allowed = "".join("_" if each in _REFUSED or each < " " else each for each in name)
+        while allowed.lower() in {*map(str.lower, names), *map(str.lower, _LAYERS), "0", ""}:
+            allowed += "_"
+        names.append(allowed)
+    return names
+
+
+def _add_curves(space: Any, curves: Curves, layer: str = "") -> None:
     for feature in curves.features(polygons=True):
         if feature.kind == "points":
-            _add_points(space, curves.points, feature.parts[0])
+            _add_points(space, curves.points, feature.parts[0], layer)
             continue
         for number, rows in enumerate(feature.parts):
-            name = "OPEN" if feature.kind == "line" else "HOLES" if number else "RINGS"
-            _add_polyline(space, curves.points, rows, feature.closed, name)
-    _save(drawing, target)
+            kind = "OPEN" if feature.kind == "line" else "HOLES" if number else "RINGS"
+            style = {"layer": layer, "color": _LAYERS[kind]} if layer else {"layer": kind}
+            _add_polyline(space, curves.points, rows, feature.closed, style)
 
 
 def write_splines(
@@ -226,17 +254,21 @@ def _drawing(unit: str) -> Any:
     return drawing
 
 
-def _add_points(space: Any, points: Points, rows: IntArray) -> None:
+def _add_points(space: Any, points: Points, rows: IntArray, layer: str = "") -> None:
     for place in _xyz(points, rows).tolist():
-        space.add_point(place, dxfattribs={"layer": "POINTS"})
+        space.add_point(place, dxfattribs={"layer": layer or "POINTS"})
 
 
-def _add_polyline(space: Any, points: Points, rows: IntArray, closed: bool, layer: str) -> None:
-    attributes = {"layer": layer}
-    if points.z is None:
-        space.add_lwpolyline(points.xy[rows].tolist(), close=closed, dxfattribs=attributes)
+def _add_polyline(
+    space: Any, points: Points, rows: IntArray, closed: bool, style: dict[str, Any]
+) -> None:
+    """Add a polyline of the plane, at its elevation if it is level, or else one in space."""
+    z = np.zeros(1) if points.z is None else points.z[rows]
+    if (z == z[0]).all():
+        level = style if points.z is None else {**style, "elevation": float(z[0])}
+        space.add_lwpolyline(points.xy[rows].tolist(), close=closed, dxfattribs=level)
     else:
-        space.add_polyline3d(_xyz(points, rows).tolist(), close=closed, dxfattribs=attributes)
+        space.add_polyline3d(_xyz(points, rows).tolist(), close=closed, dxfattribs=style)
 
 
 def _add_spline(space: Any, pieces: FloatArray, layer: str) -> None:
@@ -275,6 +307,7 @@ DXF = Format(
     layers=layers,
     write_points=write_points,
     write_curves=write_curves,
+    write_layers=write_layers,
     write_splines=write_splines,
     options=(LAYER, TOLERANCE, UNIT),
     extra="cad",

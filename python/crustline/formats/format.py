@@ -14,6 +14,9 @@ To add a format:
      not at all: `target.write(content)`, or `with target.path() as path`, whose folder may get
      several files. Other things (a medial axis, a certificate) arrive as one of these three.
      ``write_layers(things, target, *, …)`` takes a mapping of names to points and curves.
+   - ``cloud(source, box, *, …)`` yields the points in space, as `Chunk`s, for slices; those outside
+     of the box, its least and greatest corner, may be left out. ``mesh(source)`` returns the
+     vertices (n, 3) and triangles (m, 3) of a surface, or None if the file holds points alone.
 
    What is wrong in a file is `raise source.error("what it is: what to do", "line 3")`; what is
    doubtful but read, `source.warn("what was understood: the option that says otherwise")`; what
@@ -40,7 +43,9 @@ from typing import TYPE_CHECKING, Any
 from crustline.errors import InputError, require, shown
 
 if TYPE_CHECKING:
+    from crustline.arrays import FloatArray, IntArray
     from crustline.curves import Curves
+    from crustline.formats.cloud import Chunk
     from crustline.formats.source import Source
     from crustline.formats.target import Target
     from crustline.points import Points
@@ -116,6 +121,8 @@ class Format:
         Whether the first bytes of a file (4096 or fewer) are of this format, beyond doubt.
     read, read_curves, stream, layers : callable, optional
         See the module's text.
+    cloud, mesh : callable, optional
+        See the module's text.
     write_points, write_curves, write_splines, write_layers : callable, optional
         See the module's text.
     options : tuple of Option
@@ -134,6 +141,8 @@ class Format:
     read_curves: Callable[..., Curves] | None = None
     stream: Callable[..., Iterator[Points]] | None = None
     layers: Callable[[Source], list[Layer]] | None = None
+    cloud: Callable[..., Iterator[Chunk]] | None = None
+    mesh: Callable[[Source], tuple[FloatArray, IntArray] | None] | None = None
     write_points: Callable[..., None] | None = None
     write_curves: Callable[..., None] | None = None
     write_splines: Callable[..., None] | None = None

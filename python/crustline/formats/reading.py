@@ -17,7 +17,7 @@ from crustline.points import Points, as_crs
 if TYPE_CHECKING:
     from crustline.curves import Curves
 
-__all__ = ["layers", "read", "read_curves", "stream"]
+__all__ = ["layers", "opened", "read", "read_curves", "stream"]
 
 
 def read(
@@ -82,7 +82,7 @@ def read(
     >>> points.xy.tolist(), points.columns["name"].tolist()
     ([[8.5, 47.4], [7.4, 46.9]], ['Zurich', 'Bern'])
     """
-    source = _opened(path)
+    source = opened(path)
     chosen = format_of_source(source, format)
     settings = chosen.settings("read", options)
     chosen.require()
@@ -114,7 +114,7 @@ def read_curves(
     """
     from dataclasses import replace
 
-    source = _opened(path)
+    source = opened(path)
     chosen = format_of_source(source, format, "read_curves")
     settings = chosen.settings("read_curves", options)
     chosen.require()
@@ -151,7 +151,7 @@ def stream(
     FormatError, InputError, MissingExtraError
         As for `read`, where the fault is met.
     """
-    source = _opened(path)
+    source = opened(path)
     chosen = format_of_source(source, format)
     task = "stream" if chosen.stream else "read"
     settings = chosen.settings(task, options)
@@ -173,7 +173,7 @@ def stream(
 
 def layers(path: Any, *, format: str | None = None) -> list[Layer]:
     """Return the layers of a file; none if its format knows no layers."""
-    source = _opened(path)
+    source = opened(path)
     chosen = format_of_source(source, format)
     if chosen.layers is None:
         return []
@@ -187,7 +187,7 @@ def _library(chosen: Format, source: Source) -> AbstractContextManager[None]:
     return source.library(chosen.needs[0].replace("_", "-")) if chosen.needs else nullcontext()
 
 
-def _opened(path: Any) -> Source:
+def opened(path: Any) -> Source:
     """Return the source of a path, unpacked."""
     source = unpacked(path if isinstance(path, Source) else Source(path))
     head = source.head

@@ -10,7 +10,6 @@ _CONVERT = "save its points as CSV or GeoJSON"
 _SIGNATURES = (
     (b"%PDF", "a PDF file: save its drawing as SVG or DXF"),
     (b"%!PS", "a PostScript file: save its drawing as SVG or DXF"),
-    (b"LASF", f"a LAS or LAZ file: {_CONVERT}"),
     (b"\x89HDF", f"an HDF5 file: {_CONVERT}"),
     (b"CDF", f"a NetCDF file: {_CONVERT}"),
     (b"AC10", "a DWG file: save it as DXF"),

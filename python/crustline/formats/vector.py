@@ -209,7 +209,9 @@ class _Driver:
         """Write a line a curve, and the isolated points, in formats without polygons."""
         self.write_curves(curves, target)
 
-    def write_layers(self, things: Mapping[str, Points | Curves], target: Target) -> None:
+    def write_layers(
+        self, things: Mapping[str, Points | Curves], target: Target, *, polygons: bool = False
+    ) -> None:
         """Write each thing as a layer of its name, or as some if it has several types."""
         parts: list[_Part] = []
         crs = None
@@ -219,7 +221,7 @@ class _Driver:
             if isinstance(thing, Points):
                 parts.append(_Part(name, _with_z("Point", thing), _table_of_points(thing)))
             else:
-                parts.extend(_parts(thing, False, name))
+                parts.extend(_parts(thing, polygons, name))
         self._write(parts, crs, target)
 
     def _ready(self, points: Points) -> Points:
