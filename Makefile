@@ -13,7 +13,7 @@ LOCK := requirements/ci.txt
 PINNED := 3.11 linux x86_64
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo test test-all test-rust test-python test-busy lint types audit lock format accuracy bench bench-quick bench-instructions fuzz fuzz-readers mutants soak man figures experiment simulate wheel clean editor page test-editor
+.PHONY: help build demo test test-all test-rust test-python test-busy lint types audit lock qgis format accuracy bench bench-quick bench-instructions fuzz fuzz-readers mutants soak man figures experiment simulate wheel clean editor page test-editor
 
 help: ## Show this list.
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-20s %s\n", $$1, $$2}'
@@ -103,6 +103,9 @@ fuzz: build ## Call public functions COUNT times (default 100,000) with argument
 		RUSTFLAGS="$(COVERAGE)" cargo run --release --target "$$(rustc -vV | sed -n 's/host: //p')" --bin $$target -- \
 		-max_total_time=$(or $(SECONDS_EACH),60) -max_len=512 -artifact_prefix=corpus/$$target/ corpus/$$target || exit 1; \
 	done
+
+qgis: ## Pack the plugin that QGIS installs (Plugins > Install from ZIP) into dist/qgis.
+	$(PYTHON) integrations/qgis/pack.py dist/qgis
 
 man: build ## Write the manual pages of the command into man/.
 	$(BIN)/python -m crustline.cli.manual man

@@ -1,7 +1,11 @@
-"""The progress bar: on standard error, if that is a terminal and the work turns out to be long."""
+"""The progress bar: on standard error, if that is a terminal and the work turns out to be long.
+
+Programs that run the command set CRUSTLINE_PROGRESS=lines: they get a line for each percent.
+"""
 
 from __future__ import annotations
 
+import os
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -15,6 +19,9 @@ _PATIENCE = 0.5  # seconds before a progress bar appears
 @contextmanager
 def progress_bar(quiet: bool) -> Iterator[Progress | None]:
     """Yield what methods report to: a bar on standard error, if that is a terminal."""
+    if os.environ.get("CRUSTLINE_PROGRESS") == "lines":
+        yield _Lines()
+        return
     if quiet or not sys.stderr.isatty():
         yield None
         return
@@ -50,3 +57,16 @@ class _Bar:
     def stop(self) -> None:
         if self.display is not None:
             self.display.stop()
+
+
+class _Lines:
+    """A line on standard error for each percent of each stage, for programs that read them."""
+
+    def __init__(self) -> None:
+        self.last = ""
+
+    def __call__(self, stage: str, fraction: float) -> None:
+        line = f"crustline: progress: {stage}: {100 * fraction:.0f}%"
+        if line != self.last:
+            self.last = line
+            print(line, file=sys.stderr, flush=True)
