@@ -83,6 +83,7 @@ def test_the_zip_is_what_qgis_installs(tmp_path):
 def test_progress_comes_in_lines_for_those_that_ask(monkeypatch, capsys):
     monkeypatch.setenv("CRUSTLINE_PROGRESS", "lines")
     with progress_bar(quiet=True) as progress:
+        assert progress is not None
         for share in (0.0, 0.001, 0.5, 1.0):
             progress("triangulating", share)
     assert capsys.readouterr().err.splitlines() == [
