@@ -14,8 +14,8 @@ from .measure import Result, ratio
 from .rivals import CONTENDERS, Contender
 
 RESULTS = Path(__file__).parent / "results.json"
-SMALL_CALLS, AFTER_CRUST, LIMITS = "small calls", "after the crust", "limits"
-FAMILIES = (*DISTRIBUTIONS, *HOSTILE, SMALL_CALLS, AFTER_CRUST, LIMITS)
+SMALL_CALLS, AFTER_CRUST, LIMITS, TILES = "small calls", "after the crust", "limits", "tiles"
+FAMILIES = (*DISTRIBUTIONS, *HOSTILE, SMALL_CALLS, AFTER_CRUST, LIMITS, TILES)
 
 #: What is stored of a family: its `machine`, and either the `results` of contenders on points and
 #: those that were `absent`, or `seconds` by description.

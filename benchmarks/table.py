@@ -6,7 +6,7 @@ from pathlib import Path
 
 from .measure import Result, ratio
 from .plot import plot
-from .results import AFTER_CRUST, LIMITS, Results, load
+from .results import AFTER_CRUST, LIMITS, TILES, Results, load
 from .rivals import CGAL_DELAUNAY, CONTENDERS, CRUST, DELAUNAY, OURS, Contender
 from .targets import MILLION, Target, targets
 
@@ -43,6 +43,11 @@ AFTER = """\
 What else the samples of curves have, a million of them on all cores: the crust from the points, and
 the rest from the triangulation and the edges that it leaves. The certificate uses the interpolant
 that the local feature size was measured on.
+"""
+IN_TILES = """\
+Curve samples, four million of them, as one piece on one thread and in tiles of a million, to edges
+and curves: seconds of processors, from the reports of the runs. Reading the input is not counted,
+reading and writing the files of the run is told apart.
 """
 FLOOR = "What a million points cost at least, beside what crustline takes for them on one thread:\n"
 CACHE = """\
@@ -93,6 +98,9 @@ def page(results: Results) -> str:
             "## After the crust\n",
             AFTER,
             markdown(["", "seconds"], after_rows(results.seconds(AFTER_CRUST))),
+            "## In tiles\n",
+            IN_TILES,
+            markdown(["", "processor seconds"], tile_rows(results.seconds(TILES))),
             "## Where crustline loses\n",
             bullets(losses(results)) or "Nowhere in this run.\n",
             "## Agreement\n",
@@ -261,6 +269,12 @@ def after_rows(after_crust: dict[str, float]) -> Iterator[list[str]]:
     for task, value in after_crust.items():
         if task != "ratio":
             yield [f"`{task}`", seconds(value)]
+
+
+def tile_rows(figures: dict[str, float]) -> Iterator[list[str]]:
+    for what, value in figures.items():
+        if what not in ("ratio", "coordinator"):
+            yield [what, seconds(value)]
 
 
 def limit_rows(results: Results, limits: dict[str, float]) -> Iterator[list[str]]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from .data import CRUST_EDGES, DISTRIBUTIONS, HOSTILE
 from .measure import Result
-from .results import AFTER_CRUST, SMALL_CALLS, Results
+from .results import AFTER_CRUST, SMALL_CALLS, TILES, Results
 from .rivals import CGAL_CRUST, CGAL_DELAUNAY, CRUST, CRUST_2, OURS
 
 MILLION = 10**6
@@ -32,7 +32,7 @@ def largest(values: Iterable[float | None]) -> float | None:
 
 
 def targets(results: Results) -> Iterator[Target]:
-    """Yield the targets of the crust, then that of what comes after it."""
+    """Yield the targets of the crust, then those of what comes after it, and of tiles."""
     for distribution, contender, bound in (
         ("curves", CRUST, 1.0),
         ("curves", CRUST_2, 0.6),
@@ -63,6 +63,15 @@ def targets(results: Results) -> Iterator[Target]:
         3,
         results.seconds(AFTER_CRUST).get("ratio"),
     )
+    yield from of_tiles(results.seconds(TILES))
+
+
+def of_tiles(figures: dict[str, float]) -> Iterator[Target]:
+    text = "curve samples in tiles of 10⁶: processor time without files / one piece"
+    yield Target(text, 1.5, figures.get("ratio"))
+    share = figures.get("coordinator")
+    text = "curve samples in tiles of 10⁶: points in one place"
+    yield Target(text, 100, None if share is None else 1e6 * share, " of 10⁶")
 
 
 def growth(results: Results, distributions: Iterable[str], n: int) -> float | None:
