@@ -7,12 +7,14 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable
+from itertools import groupby
 from pathlib import Path
 
 import pytest
 
 from crustline import read
 from crustline.cli import main
+from crustline.cli.sections import HEADINGS
 from crustline.formats import FORMATS
 from crustline.formats.catalog import options_for
 
@@ -224,5 +226,18 @@ def test_manual_pages_hold_what_help_says(tmp_path: Path) -> None:
     pages = {path.name: path.read_text(encoding="utf-8") for path in write_pages(tmp_path / "man")}
     assert "crustline\\-reconstruct" in pages["crustline.1"]
     text = pages["crustline-reconstruct.1"]
+    assert [line[4:] for line in text.splitlines() if line.startswith(".SH ")] == [
+        "NAME", "SYNOPSIS", "DESCRIPTION", *(heading.upper() for heading in HEADINGS),
+    ]  # fmt: skip
     assert "\\-\\-skip\\-lines" in text
     assert "crustline reconstruct goose.csv" in text
+
+
+def test_help_is_in_sections(run: Run) -> None:
+    """Sixty options stood in one list."""
+    _, out, _ = run("reconstruct", "--help")
+    lines = out.splitlines()
+    assert [line[:-1] for line in lines if line[:1].isalpha() and line.endswith(":")] == [*HEADINGS]
+    place = {word: k for k, line in enumerate(lines) for word in line.split()[:1]}
+    assert place["--by"] < place["--crs"] < place["--orient"] < place["--beta"]
+    assert max(sum(1 for _ in group) for key, group in groupby(lines, key=bool) if key) < 40

@@ -19,6 +19,7 @@ from crustline.cli.method import Method, fit_options, method_options
 from crustline.cli.orientation import Orientation, orientation_options
 from crustline.cli.output import counted, write_with
 from crustline.cli.progress import progress_bar
+from crustline.cli.sections import Sectioned, headed
 from crustline.cli.source import Source, format_options, reading_options
 from crustline.errors import CrustlineError, InputError
 from crustline.formats.catalog import format_of_target, options_for
@@ -60,13 +61,13 @@ def _pace_options(command: Command) -> Command:
     return run
 
 
-@click.command()
+@click.command(cls=Sectioned)
 @click.argument("names", metavar="INPUT...", nargs=-1, required=True)
 @click.option("-o", "--output", "pattern", metavar="PATTERN", required=True,
               help="The files to write, such as out/{stem}.geojson.")  # fmt: skip
 @_pace_options
 @reading_options
-@format_options("write_curves")
+@headed("Output")(format_options("write_curves"))
 @orientation_options
 @method_options
 @fit_options

@@ -9,10 +9,11 @@ import click
 from crustline.cli.method import Method, method_options
 from crustline.cli.output import Output, output_options
 from crustline.cli.reconstruct import reconstruction
+from crustline.cli.sections import Sectioned
 from crustline.cli.source import Source, source_options
 
 
-@click.command()
+@click.command(cls=Sectioned)
 @source_options
 @output_options("write_points")
 @click.option("--strict", is_flag=True,

@@ -14,6 +14,7 @@ from crustline.cli.hints import Command
 from crustline.cli.method import as_method
 from crustline.cli.output import counted
 from crustline.cli.progress import progress_bar
+from crustline.cli.sections import headed
 from crustline.cli.source import is_verbose
 from crustline.errors import InputError
 
@@ -28,6 +29,7 @@ _UNDERSTOOD = {
 _OWN = ("scheduler", "memory", "tile_points", "resume")
 
 
+@headed("Data larger than memory")
 def distributed_options(command: Command) -> Command:
     """Give a command --distributed and what goes with it; such runs do not reach the command."""
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import click
 
+from crustline.cli.sections import Sectioned
 
-@click.command()
+
+@click.command(cls=Sectioned)
 @click.argument("file", required=False, type=click.Path(allow_dash=True))
 @click.option("--port", type=click.IntRange(0, 65535), default=0, metavar="N", help="The port.")
 @click.option("--no-browser", is_flag=True, help="Print the address only.")

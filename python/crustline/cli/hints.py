@@ -8,6 +8,7 @@ from typing import Any
 
 import click
 
+from crustline.cli.sections import headed
 from crustline.errors import InputError
 
 Command = Callable[..., None]
@@ -17,6 +18,7 @@ NAMES = (
 )  # fmt: skip
 
 
+@headed("What is known of the curves")
 def hint_options(command: Command) -> Command:
     """Give a command the hints that `connect` takes; it takes `hints`, those that were given."""
 

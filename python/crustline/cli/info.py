@@ -9,6 +9,7 @@ import click
 import numpy as np
 
 from crustline.cli.output import Output, counted, output_options
+from crustline.cli.sections import Sectioned
 from crustline.cli.source import Source, source_options
 
 if TYPE_CHECKING:
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
     from crustline.points import Points
 
 
-@click.command()
+@click.command(cls=Sectioned)
 @source_options
 @click.option("--json", "as_json", is_flag=True, help="Print it as JSON.")
 def info(source: Source, as_json: bool) -> None:
@@ -85,7 +86,7 @@ def _in_words(value: Any) -> str:
     return f"{value:,}" if isinstance(value, int) else str(value)
 
 
-@click.command()
+@click.command(cls=Sectioned)
 @source_options
 @output_options("write_points", required=True)
 def convert(source: Source, output: Output) -> None:

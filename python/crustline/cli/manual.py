@@ -9,6 +9,7 @@ import click
 
 from crustline._core import __version__
 from crustline.cli import commands
+from crustline.cli.sections import sections_of
 
 
 def page(command: click.Command, name: str) -> str:
@@ -23,11 +24,10 @@ def page(command: click.Command, name: str) -> str:
         _text(" ".join([name, *command.collect_usage_pieces(context)])),
         ".SH DESCRIPTION",
         *_paragraphs(rest or short),
-        ".SH OPTIONS",
     ]
-    for parameter in command.get_params(context):
-        record = parameter.get_help_record(context)
-        if record:
+    for heading, records in sections_of(command, context):
+        lines.append(f".SH {_text(heading.upper())}")
+        for record in records:
             lines += [".TP", f"\\fB{_text(record[0])}\\fR", _text(record[1])]
     if isinstance(command, click.Group):
         lines.append(".SH COMMANDS")

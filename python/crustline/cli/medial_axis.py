@@ -14,6 +14,7 @@ from crustline.cli.hints import Command
 from crustline.cli.method import Method, fit_options, method_options
 from crustline.cli.output import Output, counted, output_options
 from crustline.cli.reconstruct import reconstruction
+from crustline.cli.sections import Sectioned
 from crustline.cli.source import Source, source_options
 from crustline.errors import CrustlineError, FormatWarning, InputError
 from crustline.scalars import as_length
@@ -57,7 +58,7 @@ def part_options(command: Command) -> Command:
     return run
 
 
-@click.command("medial-axis")
+@click.command("medial-axis", cls=Sectioned)
 @source_options
 @output_options("write_curves")
 @polygon_options

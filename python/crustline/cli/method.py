@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from crustline.cli.hints import Command, hint_options
+from crustline.cli.sections import Sectioned, headed
 from crustline.errors import InputError
 from crustline.formats.names import quote_all
 
@@ -54,6 +55,7 @@ class Method:
         )  # fmt: skip
 
 
+@headed("Method")
 def method_options(command: Command) -> Command:
     """Give a command the options that choose a method; it takes `method: Method`."""
 
@@ -89,6 +91,7 @@ def method_options(command: Command) -> Command:
     return run
 
 
+@headed("Noise")
 def fit_options(command: Command) -> Command:
     """Give a command that takes `method: Method` --fit and --noise."""
 
@@ -158,7 +161,7 @@ def _setting(text: str) -> tuple[str, Any]:
         return name, value
 
 
-@click.command("methods")
+@click.command("methods", cls=Sectioned)
 def list_methods() -> None:
     """List the methods, each with a line, its parameters and its reference."""
     from crustline.methods import METHODS, parameters_of

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from crustline.cli.hints import Command
+from crustline.cli.sections import headed
 from crustline.errors import InputError
 from crustline.orientation import COMPASS, ORIENTATIONS
 
@@ -30,6 +31,7 @@ class Orientation:
         return curves.oriented(self.orient, start=self.start, crs=project)
 
 
+@headed("Output")
 def orientation_options(command: Command) -> Command:
     """Give a command --orient and --start; it takes `orientation: Orientation`."""
 

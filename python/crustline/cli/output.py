@@ -13,6 +13,7 @@ from typing import Any
 import click
 
 from crustline.cli.hints import Command
+from crustline.cli.sections import headed
 from crustline.cli.source import VERBOSE, format_options
 from crustline.errors import InputError
 from crustline.formats.catalog import able, format_of_target, options_for, suffixes_for
@@ -76,6 +77,7 @@ def output_options(task: str, *, required: bool = False) -> Callable[[Command], 
     """
     suffixes = suffixes_for(task)
 
+    @headed("Output")
     def decorate(command: Command) -> Command:
         @_files_option(f"A file to write: {_one_of(suffixes)}; - is stdout.", required=required)
         @click.option(
@@ -102,6 +104,7 @@ def output_options(task: str, *, required: bool = False) -> Callable[[Command], 
 def picture_options(*suffixes: str, pipe: bool = False) -> Callable[[Command], Command]:
     """The same for pictures, whose format is that of their name alone."""
 
+    @headed("Output")
     def decorate(command: Command) -> Command:
         @_files_option(
             f"A picture to write: {_one_of(suffixes)}{'; - is standard output' * pipe}.",

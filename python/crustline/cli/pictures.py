@@ -7,6 +7,7 @@ import click
 from crustline.cli.method import Method, fit_options, method_options
 from crustline.cli.output import Output, counted, output_options, picture_options
 from crustline.cli.reconstruct import reconstruction
+from crustline.cli.sections import Sectioned
 from crustline.cli.source import Source, source_options
 from crustline.errors import InputError
 from crustline.scalars import as_degrees
@@ -17,7 +18,7 @@ LAYERS = (
 )  # fmt: skip
 
 
-@click.command()
+@click.command(cls=Sectioned)
 @source_options
 @picture_options(".png", ".svg", ".pdf")
 @click.option("--show", default="points,crust", show_default=True, metavar="WORDS",
@@ -52,7 +53,7 @@ def plot(source: Source, output: Output, show: str, method: Method) -> None:
     )
 
 
-@click.command()
+@click.command(cls=Sectioned)
 @source_options
 @output_options("write_splines", required=True)
 @click.option(

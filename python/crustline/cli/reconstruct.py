@@ -15,6 +15,7 @@ from crustline.cli.method import Method, fit_options, method_options
 from crustline.cli.orientation import Orientation, orientation_options
 from crustline.cli.output import Output, counted, output_options
 from crustline.cli.progress import progress_bar
+from crustline.cli.sections import Sectioned
 from crustline.cli.slices import slice_options
 from crustline.cli.source import Source, source_options
 from crustline.errors import FormatWarning, InputError
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     from crustline.reconstruction import Reconstruction
 
 
-@click.command()
+@click.command(cls=Sectioned)
 @distributed_options
 @source_options
 @output_options("write_curves")

@@ -11,6 +11,7 @@ import numpy as np
 from crustline.cli.method import Method, method_options
 from crustline.cli.output import Output, counted, output_options
 from crustline.cli.reconstruct import reconstruction
+from crustline.cli.sections import Sectioned
 from crustline.cli.source import Source, source_options
 from crustline.errors import InputError
 from crustline.scalars import as_positive, as_share
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 SHAPES = ("circle", "ellipse", "stadium", "trefoil", "blob", "superformula")
 
 
-@click.command()
+@click.command(cls=Sectioned)
 @click.argument("shape", metavar="SHAPE|SVG")
 @click.option(
     "-r", type=float, metavar="R",
@@ -155,7 +156,7 @@ def _check_names(
         ) from None
 
 
-@click.command()
+@click.command(cls=Sectioned)
 @source_options
 @click.option(
     "-r", type=float, required=True, metavar="R",

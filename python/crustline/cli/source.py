@@ -11,6 +11,7 @@ import click
 import numpy as np
 
 from crustline.cli.hints import Command
+from crustline.cli.sections import headed
 from crustline.formats.catalog import able, options_for
 from crustline.formats.format import Format, Option
 
@@ -79,6 +80,7 @@ def source_options(command: Command) -> Command:
     return run
 
 
+@headed("Input")
 def reading_options(command: Command) -> Command:
     """Give a command the options of its input alone; it takes `source: Source` without a name."""
 
@@ -124,10 +126,25 @@ def format_options(task: str) -> Callable[[Command], Command]:
     return decorate
 
 
+class _TextOption(click.Option):
+    heading = "Input of text"
+
+
+class _ImageOption(click.Option):
+    heading = "Input of images"
+
+
+#: The options of these formats alone are under a heading of their own.
+_KINDS = {("csv", "tsv", "xyz"): _TextOption, ("image",): _ImageOption}
+
+
 def _click_option(option: Option, formats: list[Format]) -> Callable[[Command], Command]:
-    help = f"{option.help} [{', '.join(each.name for each in formats)}]"
-    if option.metavar:
-        return click.option(option.spelling, option.name, metavar=option.metavar, help=help)
-    return click.option(
-        option.spelling, option.name, flag_value=option.constant, default=None, help=help
+    names = tuple(each.name for each in formats)
+    kind = _KINDS.get(names, click.Option)
+    shape: dict[str, Any] = (
+        {"metavar": option.metavar}
+        if option.metavar
+        else {"flag_value": option.constant, "default": None}
     )
+    help = f"{option.help} [{', '.join(names)}]"
+    return click.option(option.spelling, option.name, cls=kind, help=help, **shape)
