@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeVar, cast
 
 import click
 
@@ -13,10 +13,11 @@ __all__ = ["HEADINGS", "Sectioned", "headed", "sections_of"]
 #: The headings in the order of the help; what a command has of its own comes first.
 _OWN, *_HEADINGS = HEADINGS = (
     "Options", "Input", "Input of text", "Input of images", "Output", "Method",
-    "What is known of the curves", "Noise", "Data larger than memory",
+    "What is known of the curves", "Noise", "Slices of clouds and meshes",
+    "Data larger than memory",
 )  # fmt: skip
 
-Decorator = Callable[..., Any]
+Decorator = TypeVar("Decorator", bound=Callable[..., Any])
 
 
 def headed(heading: str) -> Callable[[Decorator], Decorator]:
@@ -37,7 +38,7 @@ def headed(heading: str) -> Callable[[Decorator], Decorator]:
                 option.heading = getattr(option, "heading", heading)
             return given
 
-        return give
+        return cast(Decorator, give)
 
     return decorate
 

@@ -14,6 +14,7 @@ from crustline.cli.method import Method
 from crustline.cli.orientation import Orientation
 from crustline.cli.output import Output, counted, write_with
 from crustline.cli.progress import progress_bar
+from crustline.cli.sections import headed
 from crustline.cli.source import Source
 from crustline.errors import InputError
 
@@ -46,6 +47,7 @@ class _Cuts:
         return as_planes([*level, *upright]), thick
 
 
+@headed("Slices of clouds and meshes")
 def slice_options(command: Command) -> Command:
     """Give a command --slice and what goes with it; such runs do not reach the command."""
 
