@@ -2,7 +2,7 @@
 
 use super::approximation::log;
 use super::candidates::{Candidates, by_vertex};
-use super::constants::{Constants, GAP_FEWEST, GAP_SPREAD, GAP_SURE, GAP_WINDOW};
+use super::constants::{Constants, GAP_FEWEST, GAP_RARE, GAP_SPREAD, GAP_SURE, GAP_WINDOW};
 use super::geometry::Spacing;
 use super::selection::Selection;
 
@@ -85,7 +85,7 @@ fn may_begin(
 }
 
 /// The steps along the curve on both sides of `v`.
-fn steps_around(
+pub fn steps_around(
     candidates: &Candidates,
     spacing: &Spacing<'_>,
     selection: &Selection,
@@ -118,7 +118,20 @@ fn usual_steps(mut steps: Vec<f64>, constants: &Constants) -> Option<(f64, f32)>
     let from = &steps[(steps.len() - 1) / 2..];
     let jump = from.windows(2).find(|pair| pair[1] >= constants.gap_jump * pair[0]);
     let longest = jump.map_or(from[from.len() - 1], |pair| pair[0]);
+    let rare = rare_step(&steps[..steps.partition_point(|&step| step <= longest)]);
+    let longest = longest.max(rare * libm::exp(-constants.gap_free));
     let spread = log(longest / steps[steps.len() / 4]) as f32 / GAP_SPREAD;
     let enough = (steps.len() as f32 / GAP_SURE).min(1.0);
     Some((longest, enough / (1.0 + spread * spread * spread * spread)))
+}
+
+/// The step that random samples as uneven as the sorted `usual` ones have seldom.
+///
+/// Where samples are left out at random, steps are distributed geometrically: the exponential beyond the least has about
+/// their standard deviation.
+pub fn rare_step(usual: &[f64]) -> f64 {
+    let count = usual.len() as f64;
+    let mean = usual.iter().sum::<f64>() / count;
+    let variance = usual.iter().map(|step| (step - mean).powi(2)).sum::<f64>() / count;
+    usual[0] + variance.sqrt() * (libm::log(count) + GAP_RARE)
 }

@@ -6,7 +6,6 @@ use crate::delaunay::Delaunay;
 use crate::edges::Edges;
 use crate::error::Result;
 use crate::interpolant::Interpolant;
-use crate::methods::crust;
 use crate::point::{Point, dot, length, sub};
 use crate::progress::Progress;
 use crate::trace::{Curves, trace};
@@ -20,20 +19,20 @@ use std::collections::HashSet;
 /// A cancelled `progress`.
 pub fn guard(
     delaunay: &Delaunay,
+    crust: &Edges,
     edges: Edges,
     may_take: impl Fn(&[u32]) -> bool,
     progress: &Progress,
 ) -> Result<Edges> {
-    let crust = crust(delaunay, progress)?;
-    if crust == edges {
+    if *crust == edges {
         return Ok(edges);
     }
     let mut points = vec![[f64::NAN; 2]; delaunay.input_len()];
     for (v, &row) in delaunay.rows().iter().enumerate() {
         points[row as usize] = delaunay.points()[v];
     }
-    let lost = without(&crust, &edges);
-    let curves = trace(&points, &crust, progress)?;
+    let lost = without(crust, &edges);
+    let curves = trace(&points, crust, progress)?;
     let rings: Vec<&[u32]> = rings(&curves)
         .filter(|ring| sides(ring).any(|side| lost.contains(&side)) && is_smooth(&points, ring))
         .filter(|ring| may_take(ring))
@@ -41,8 +40,8 @@ pub fn guard(
     if rings.is_empty() {
         return Ok(edges);
     }
-    let interpolant = Interpolant::new(delaunay, &crust, progress)?;
-    let ratios = measure(delaunay, &crust, &interpolant, progress)?.ratios;
+    let interpolant = Interpolant::new(delaunay, crust, progress)?;
+    let ratios = measure(delaunay, crust, &interpolant, progress)?.ratios;
     let is_proven = |side: [u32; 2]| {
         let number = crust.binary_search(&side).expect("rings of the crust are made of its edges");
         (1.0 + MARGIN) * ratios[number] < PROVEN

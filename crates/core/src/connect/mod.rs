@@ -4,6 +4,7 @@
 //! found by message passing. Two rounds: the second judges turns, steps and lone points by what the first found nearby.
 
 mod approximation;
+mod bridge;
 mod calibrate;
 mod candidates;
 mod connection;
@@ -18,6 +19,7 @@ mod gaps;
 mod geometry;
 mod guard;
 mod hints;
+mod improve;
 mod junctions;
 mod mend;
 mod messages;
@@ -30,6 +32,7 @@ mod selection;
 use crate::delaunay::Delaunay;
 use crate::edges::{Edges, rows, sort};
 use crate::error::Result;
+use crate::methods::crust;
 use crate::progress::{Progress, Stage};
 use candidates::Candidates;
 pub use connection::Connection;
@@ -78,6 +81,9 @@ fn find<'a>(
     progress.enter(Stage::Select, delaunay.points().len())?;
     let mut found = converge(delaunay, constants, hints, progress)?;
     let mut selection = std::mem::take(&mut found.selection);
+    improve::improve(&found, &mut selection);
+    let crust = crust(delaunay, progress)?;
+    bridge::bridge(delaunay, &found, &crust, constants, &mut selection);
     if !found.known.every_point {
         prune::prune(&found.factors(), constants, &mut selection);
     }
@@ -95,7 +101,7 @@ fn find<'a>(
         return Ok((found, edges));
     }
     let may_take = |ring: &[u32]| found.known.admits(&found.spacing, ring);
-    let guarded = guard::guard(delaunay, edges.clone(), may_take, progress)?;
+    let guarded = guard::guard(delaunay, &crust, edges.clone(), may_take, progress)?;
     let edges = if found.known.is_met(delaunay, &guarded) { guarded } else { edges };
     Ok((found, edges))
 }
