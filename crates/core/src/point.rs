@@ -21,6 +21,13 @@ pub fn cross(a: Point, b: Point) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
+/// `v` in the frame whose first axis is `along`, of length one.
+#[inline]
+#[must_use]
+pub fn turned(along: Point, v: Point) -> Point {
+    [dot(along, v), cross(along, v)]
+}
+
 /// The lexicographic order by x, then y.
 ///
 /// # Panics

@@ -11,6 +11,7 @@ use crate::progress::Progress;
 use crate::space::bounds::Bounds;
 use crate::space::boxes::Boxes;
 use crate::space::halves::halve;
+use crate::space::oriented::{Oriented, Seen};
 
 /// Memory for each triangle.
 const BYTES: usize = 64;
@@ -23,7 +24,8 @@ const UNCERTAIN: f64 = 1e-12;
 pub struct VoronoiVertices {
     /// For each triangle a box around its circumcenter, hardly larger than that.
     places: Vec<(Bounds, [u32; 3])>,
-    boxes: Boxes,
+    /// Vertices on a curve are met by disks that touch it, so boxes lie along them.
+    boxes: Boxes<Oriented>,
 }
 
 impl VoronoiVertices {
@@ -39,22 +41,23 @@ impl VoronoiVertices {
         let empty = (Bounds::EMPTY, [0; 3]);
         let mut places = map(triangles.len(), empty, &progress.quiet(), place)?;
         halve(&mut places, |(bounds, _)| bounds.low, progress)?;
-        let boxes = Boxes::new(&places, |&(bounds, _)| bounds);
+        let boxes = Boxes::oriented(&places, |&(bounds, _)| bounds);
         Ok(Self { places, boxes })
     }
 
-    /// The triangle of a vertex that `holds`, if there is one among those in boxes that `may_meet` admits.
+    /// The triangle of a vertex that `holds`, if there is one among those in boxes, seen from `p`, that `may_meet` admits.
     pub fn find(
         &self,
-        may_meet: impl Fn(&Bounds) -> bool,
+        p: Point,
+        may_meet: impl Fn(&Seen) -> bool,
         holds: impl Fn([u32; 3]) -> bool,
     ) -> Option<[u32; 3]> {
         let mut found = None;
-        self.boxes.any(&mut |bounds, _| may_meet(bounds), &mut |number| {
+        self.boxes.any(&mut |around, _| may_meet(&around.seen_from(p)), &mut |number| {
             #[cfg(test)]
             crate::progress::work_tests::count(crate::progress::work_tests::BOX);
             let (bounds, triangle) = self.places[number as usize];
-            found = (may_meet(&bounds) && holds(triangle)).then_some(triangle);
+            found = (may_meet(&bounds.seen_from(p).into()) && holds(triangle)).then_some(triangle);
             found.is_some()
         });
         found
@@ -93,11 +96,11 @@ mod tests {
             let center = circumcenter(corners);
             let center = [corners[0][0] + center[0], corners[0][1] + center[1]];
             let looked = Cell::new(0);
-            let may_meet = |bounds: &Bounds| {
+            let may_meet = |seen: &Seen| {
                 looked.set(looked.get() + 1);
-                bounds.square_to(center) == 0.0
+                seen.bounds.square_to([0.0; 2]) <= seen.doubt * seen.doubt
             };
-            assert_eq!(vertices.find(may_meet, |other| other == triangle), Some(triangle));
+            assert_eq!(vertices.find(center, may_meet, |other| other == triangle), Some(triangle));
             assert!(looked.get() < 200);
         }
     }

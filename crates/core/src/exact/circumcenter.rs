@@ -2,7 +2,7 @@
 
 use crate::exact::filter::ROUNDING;
 use crate::exact::sign::{self, Form, Number};
-use crate::point::{Point, cross, dot, sub};
+use crate::point::{Point, cross, dot, length, sub};
 
 /// A circumcenter relative to some origin, and a bound on the distance to the true one.
 #[derive(Debug, Clone, Copy)]
@@ -17,8 +17,27 @@ impl Center {
     /// The circumcenter of the triangle `a`, `b`, `c` relative to `origin`.
     ///
     /// All differences are taken before products, so a common offset of the points costs no accuracy.
+    #[inline]
     #[must_use]
-    pub fn estimate([a, b, c]: [Point; 3], origin: Point) -> Self {
+    pub fn estimate(triangle: [Point; 3], origin: Point) -> Self {
+        Self::from_first(triangle, origin, 1e-7)
+            .unwrap_or_else(|| Self::from_shortest(triangle, origin))
+    }
+
+    /// The same from an end of the shortest side, whose own differences are hardly rounded. Where two corners are an ulp apart, seen from
+    /// the third they are one.
+    #[cold]
+    fn from_shortest([a, b, c]: [Point; 3], origin: Point) -> Self {
+        let side = |p, q| length(sub(p, q));
+        let is_opposite = side(b, c) < side(a, b).min(side(a, c));
+        let triangle = if is_opposite { [b, c, a] } else { [a, b, c] };
+        let unknown = Self { at: [0.0; 2], error: f64::INFINITY };
+        Self::from_first(triangle, origin, 0.25).unwrap_or(unknown)
+    }
+
+    /// The same by the two sides at `a`, unless the sine of the angle between them is uncertain by more than the part `most`.
+    #[inline]
+    fn from_first([a, b, c]: [Point; 3], origin: Point, most: f64) -> Option<Self> {
         let (u, v) = (sub(b, a), sub(c, a));
         let (uu, vv) = (dot(u, u), dot(v, v));
         let twice = 2.0 * cross(u, v);
@@ -27,8 +46,8 @@ impl Center {
         let inverse = 1.0 / twice;
         let flatness =
             32.0 * ROUNDING * ((u[0] * v[1]).abs() + (u[1] * v[0]).abs()) * inverse.abs();
-        if flatness.is_nan() || flatness >= 0.25 || twice.abs() <= 1e-200 {
-            return Self { at: [0.0; 2], error: f64::INFINITY };
+        if flatness.is_nan() || flatness >= most || twice.abs() <= 1e-200 {
+            return None;
         }
         let offset = numerators.map(|x| x * inverse);
         let from_origin = sub(a, origin);
@@ -37,7 +56,7 @@ impl Center {
         let error = 16.0 * ROUNDING * sizes * inverse.abs()
             + (2.0 * flatness + 8.0 * ROUNDING) * size(offset)
             + 8.0 * ROUNDING * size(from_origin);
-        Self { at, error }
+        Some(Self { at, error })
     }
 }
 

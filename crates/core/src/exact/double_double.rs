@@ -51,6 +51,21 @@ fn two_product(a: f64, b: f64) -> (f64, f64) {
     (product, ((a * b - product) + a * d + c * b) + c * d)
 }
 
+/// x² + y² as the nearest double and what that leaves, if two doubles hold all of it.
+#[must_use]
+pub fn squared_length(v: Point) -> Option<(f64, f64)> {
+    if v.iter().any(|x| x.abs() < 1e-140 && *x != 0.0) {
+        // The low part of a square may underflow.
+        return None;
+    }
+    let [(x, x_rest), (y, y_rest)] = v.map(|x| two_product(x, x));
+    let ((high, aside), (rest, lost)) = (two_sum(x, y), two_sum(x_rest, y_rest));
+    let (rest, more) = two_sum(aside, rest);
+    let (square, rest) = fast_two_sum(high, rest);
+    // There is one zero.
+    (lost == 0.0 && more == 0.0).then_some((square, rest + 0.0))
+}
+
 impl DoubleDouble {
     /// The differences of `points` and `origin`, divided by a power of two near the largest of them; and that power.
     #[must_use]
@@ -158,6 +173,24 @@ mod tests {
             assert!(off(a.plus(&b), &x + &y) && off(a.minus(&b), &x - &y));
             assert!(off(a.times(&b), (x * y) >> 400));
         }
+    }
+
+    #[test]
+    fn squared_lengths_are_whole_or_none() {
+        let mut held = 0;
+        for k in 0..1000u32 {
+            let steps = f64::EPSILON * f64::from(k * 7919 % 64);
+            let v = [1.0 + steps, steps * f64::from(k % 3) + f64::from(k % 2) * 0.1];
+            let exact: BigInt = v.iter().map(|&x| whole(x) * whole(x)).sum();
+            if let Some((high, low)) = squared_length(v) {
+                held += 1;
+                assert_eq!((whole(high) + whole(low)) << 400, exact);
+                assert_eq!(high + low, high);
+            }
+        }
+        assert!((400..1000).contains(&held));
+        assert_eq!(squared_length([3.0, 4.0]), Some((25.0, 0.0)));
+        assert_eq!(squared_length([1.0, 1e-150]), None);
     }
 
     #[test]

@@ -9,7 +9,7 @@ use crate::exact::double_double::DoubleDouble;
 use crate::exact::filter::{Approximate, ROUNDING, UNDERFLOW};
 use crate::exact::predicates::in_circle;
 use crate::exact::sign::{self, Form, Number};
-use crate::point::{Point, cross, dot, length, sub};
+use crate::point::{Point, cross, dot, length, sub, turned};
 use std::cell::OnceCell;
 use std::cmp::Ordering::{self, Equal, Greater, Less};
 
@@ -85,19 +85,23 @@ impl Disk {
         }
     }
 
-    /// May the disk meet the rectangle between two corners relative to p? False only if they are certainly apart.
+    /// May the disk meet a rectangle between two corners relative to p, in the frame of a direction, off by `off` at most? False only if
+    /// they are certainly apart.
     ///
-    /// With c the center, v is outside where v·(v − 2 c) > 0: a sum of a term in x and one in y, each least nearest to the center. It is
+    /// With c the center, v is outside where v·(v − 2 c) > 0: a sum of a term in each coordinate, each least nearest to the center. It is
     /// off by 2 |v| for each unit that c is off, so even for a large disk it is known to a small part of |v|.
     #[must_use]
-    pub fn may_meet(&self, low: Point, high: Point) -> bool {
+    pub fn may_meet(&self, along: Point, [low, high]: [Point; 2], off: f64) -> bool {
+        let center = turned(along, self.center);
+        let size = center[0].abs() + center[1].abs();
+        let error = self.error + 8.0 * ROUNDING * size;
         let (mut least, mut doubt) = (0.0, UNDERFLOW);
         for axis in [0, 1] {
-            let center = self.center[axis];
-            let nearest = center.max(low[axis]).min(high[axis]);
-            least += nearest * (nearest - 2.0 * center);
+            let nearest = center[axis].max(low[axis]).min(high[axis]);
+            least += nearest * (nearest - 2.0 * center[axis]);
             let reach = low[axis].abs().max(high[axis].abs());
-            doubt += reach * (2.0 * self.error + 16.0 * ROUNDING * (reach + 2.0 * center.abs()));
+            doubt += reach * (2.0 * error + 16.0 * ROUNDING * (reach + 2.0 * size));
+            doubt += 2.0 * off * (reach + off + size);
         }
         // An unknown (not a number) meets.
         let is_apart = least > doubt;

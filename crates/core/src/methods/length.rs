@@ -2,6 +2,7 @@
 
 use crate::delaunay::{Delaunay, Edge};
 use crate::error::Result;
+use crate::exact::double_double::squared_length;
 use crate::exact::filter;
 use crate::exact::sign::{self, Form, Number, exact_sign};
 use crate::parts::{GRAIN, in_parts};
@@ -37,8 +38,8 @@ pub(super) struct Ranked {
     /// The other end.
     pub q: u32,
     square: f64,
-    /// Is `square` the squared length without any rounding?
-    is_exact: bool,
+    /// What the true squared length has more; not a number if that is unknown.
+    rest: f64,
 }
 
 impl Ranked {
@@ -47,8 +48,8 @@ impl Ranked {
         if lexicographic(&delaunay.point(p), &delaunay.point(q)).is_gt() {
             (p, q) = (q, p);
         }
-        let (square, is_exact) = squared_distance(delaunay.point(p), delaunay.point(q));
-        Self { p, q, square, is_exact }
+        let (square, rest) = squared_distance(delaunay.point(p), delaunay.point(q));
+        Self { p, q, square, rest }
     }
 
     /// The order by length, then by the smaller end, then by the other.
@@ -62,13 +63,34 @@ impl Ranked {
     }
 
     fn compare_lengths(&self, other: &Self, [p, q]: [Point; 2], [r, s]: [Point; 2]) -> Ordering {
-        let difference = self.square - other.square;
-        if self.is_exact && other.is_exact {
-            return difference.total_cmp(&0.0);
+        if !self.rest.is_nan() && !other.rest.is_nan() {
+            // Rounded to the nearest double, equal lengths are equal.
+            return self.square.total_cmp(&other.square).then(self.rest.total_cmp(&other.rest));
         }
+        let difference = self.square - other.square;
         filter::sign(difference, 5, self.square + other.square, 1.0)
-            .unwrap_or_else(|| exact_sign(&Longer, p, &[q, r, s]))
+            .unwrap_or_else(|| compare_exactly([p, q], [r, s]))
     }
+}
+
+/// The lengths of two edges, where floating point is known not to tell.
+///
+/// Where both vectors are doubles, their squares fit in integers of 128 bits, wherever the edges are.
+#[cold]
+fn compare_exactly([p, q]: [Point; 2], [r, s]: [Point; 2]) -> Ordering {
+    let is_exact =
+        |p: Point, q: Point| [0, 1].iter().all(|&axis| exact_difference(p[axis], q[axis]).1);
+    if is_exact(p, q) && is_exact(r, s) {
+        exact_sign(&Nearer, [0.0; 2], &[sub(q, p), sub(s, r)])
+    } else {
+        exact_sign(&Longer, p, &[q, r, s])
+    }
+}
+
+/// b − a, and whether no rounding was needed.
+fn exact_difference(a: f64, b: f64) -> (f64, bool) {
+    let difference = b - a;
+    (difference, a + difference == b && b - difference == a)
 }
 
 /// The edges of the triangulation that `keep` keeps, ranked, in no order.
@@ -88,20 +110,11 @@ pub(super) fn ranked(
     Ok(parts.concat())
 }
 
-/// The squared distance, and whether no rounding was needed; lattices have many equally long edges.
-fn squared_distance(p: Point, q: Point) -> (f64, bool) {
-    let [(x, x_exact), (y, y_exact)] = [0, 1].map(|axis| {
-        let difference = q[axis] - p[axis];
-        let is_exact = p[axis] + difference == q[axis] && q[axis] - difference == p[axis];
-        (difference * difference, is_exact && is_short(difference))
-    });
-    let square = x + y;
-    (square, x_exact && y_exact && square - x == y && square - y == x)
-}
-
-/// Is the square of `x` a double, far from underflow: does `x` have at most 26 significant bits?
-fn is_short(x: f64) -> bool {
-    x == 0.0 || (x.abs() > 1e-150 && x.to_bits().trailing_zeros() >= 27)
+/// The squared distance, and what rounding took from it, if two doubles hold both: lattices have many edges that are as long but for that.
+fn squared_distance(p: Point, q: Point) -> (f64, f64) {
+    let [(x, x_exact), (y, y_exact)] = [0, 1].map(|axis| exact_difference(p[axis], q[axis]));
+    let known = if x_exact && y_exact { squared_length([x, y]) } else { None };
+    known.unwrap_or_else(|| (dot([x, y], [x, y]), f64::NAN))
 }
 
 /// The squared length of the edge from the origin to the first point, less that between the others.

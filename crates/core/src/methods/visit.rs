@@ -5,6 +5,7 @@ use crate::exact::filter::UNDERFLOW;
 use crate::exact::pencil::{Disk, Pencil, Vertex};
 use crate::point::{Point, cross, dot, sub};
 use crate::space::bounds::Bounds;
+use crate::space::oriented::Seen;
 use crate::voronoi::VoronoiVertices;
 use std::collections::HashSet;
 
@@ -40,11 +41,11 @@ fn find_by_place(
     disk: &Disk,
 ) -> Option<Vertex> {
     let vertex = |triangle: [u32; 3]| pencil.vertex(triangle.map(|corner| delaunay.point(corner)));
-    let may_meet = |bounds: &Bounds| {
-        let Bounds { low, high } = bounds.seen_from(pencil.p);
-        disk.may_meet(low, high)
+    let may_meet = |&Seen { along, bounds: Bounds { low, high }, doubt }: &Seen| {
+        disk.may_meet(along, [low, high], doubt)
     };
-    index.find(may_meet, |triangle| pencil.holds(disk, &vertex(triangle))).map(vertex)
+    let holds = |triangle| pencil.holds(disk, &vertex(triangle));
+    index.find(pencil.p, may_meet, holds).map(vertex)
 }
 
 impl<'a> Visit<'a> {

@@ -129,12 +129,6 @@ fn works(points: &[Point]) -> Vec<(&'static str, usize)> {
 const LEAST: usize = 400;
 /// How many times as much a nearly degenerate call may take.
 const MOST: usize = 10;
-/// Those that take more as yet: exact ties of lengths, and of circles through points an ulp apart, each in long integers.
-const LATE: [(&str, &str, usize); 3] = [
-    ("pairs", "crust", 60),
-    ("two exports of an outline", "crust", 20),
-    ("lattice", "minimum-spanning-tree", 20),
-];
 
 #[test]
 fn nearly_degenerate_points_take_at_most_ten_times_the_work() {
@@ -147,9 +141,7 @@ fn nearly_degenerate_points_take_at_most_ten_times_the_work() {
             for exponent in [-16, -15, -14, -13, -12, -10, -8, -6] {
                 let d = if exponent == -16 { f64::EPSILON } else { 10f64.powi(exponent) };
                 for ((name, work), (_, usual)) in at(d).into_iter().zip(&general) {
-                    let known = LATE.iter().find(|late| (late.0, late.1) == (family, name));
-                    let most = known.map_or(MOST, |late| late.2);
-                    if work + LEAST * SIZE > most * (usual + LEAST * SIZE) {
+                    if work + LEAST * SIZE > MOST * (usual + LEAST * SIZE) {
                         late.push(format!("{family} at {d:e}: {name} {work} over {usual}"));
                     }
                 }

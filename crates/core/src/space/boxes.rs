@@ -4,6 +4,7 @@
 //! those of successive numbers lie close together, and a node is a range of items and the box around them. Linear time.
 
 use crate::space::bounds::Bounds;
+use crate::space::oriented::Oriented;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -11,11 +12,31 @@ use std::ops::Range;
 pub(super) const FAN: usize = 8;
 
 /// The hierarchy.
-#[derive(Debug, Default)]
-pub struct Boxes {
+#[derive(Debug)]
+pub struct Boxes<B = Bounds> {
     items: u32,
     /// The leaves first, a single root last; empty without items.
-    levels: Vec<Vec<Bounds>>,
+    levels: Vec<Vec<B>>,
+}
+
+impl Default for Boxes {
+    fn default() -> Self {
+        Self { items: 0, levels: Vec::new() }
+    }
+}
+
+impl Boxes<Oriented> {
+    /// The boxes around `items`, each along its own.
+    #[must_use]
+    pub fn oriented<T: Sync>(items: &[T], around: impl Fn(&T) -> Bounds + Sync) -> Self {
+        let node = |items: &[T]| Oriented::around(items.iter().map(&around));
+        let level = |width| items.par_chunks(width).map(node).collect::<Vec<_>>();
+        let mut levels = vec![level(FAN)];
+        while levels.last().is_some_and(|level| level.len() > 1) {
+            levels.push(level(FAN.pow(levels.len() as u32 + 1)));
+        }
+        Self { items: items.len() as u32, levels }
+    }
 }
 
 impl Boxes {
@@ -30,7 +51,9 @@ impl Boxes {
         }
         Self { items: items.len() as u32, levels }
     }
+}
 
+impl<B> Boxes<B> {
     /// The number of levels.
     #[must_use]
     pub fn height(&self) -> usize {
@@ -40,7 +63,7 @@ impl Boxes {
     /// The boxes of a level; level 0 are the leaves.
     #[inline]
     #[must_use]
-    pub fn level(&self, level: usize) -> &[Bounds] {
+    pub fn level(&self, level: usize) -> &[B] {
         &self.levels[level]
     }
 
@@ -58,7 +81,7 @@ impl Boxes {
     /// `enter` sees a box and the range of its items.
     pub fn any(
         &self,
-        enter: &mut impl FnMut(&Bounds, Range<u32>) -> bool,
+        enter: &mut impl FnMut(&B, Range<u32>) -> bool,
         visit: &mut impl FnMut(u32) -> bool,
     ) -> bool {
         self.items > 0 && self.any_below(self.levels.len() - 1, 0, enter, visit)
@@ -68,7 +91,7 @@ impl Boxes {
         &self,
         level: usize,
         node: u32,
-        enter: &mut impl FnMut(&Bounds, Range<u32>) -> bool,
+        enter: &mut impl FnMut(&B, Range<u32>) -> bool,
         visit: &mut impl FnMut(u32) -> bool,
     ) -> bool {
         #[cfg(test)]

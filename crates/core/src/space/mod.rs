@@ -4,5 +4,6 @@ pub mod bounds;
 pub mod boxes;
 pub mod halves;
 pub mod order;
+pub mod oriented;
 pub mod segment;
 pub mod tree;
