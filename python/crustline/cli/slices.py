@@ -107,7 +107,7 @@ def _slice(  # noqa: PLR0913 - what the command is given
         found = slices(
             as_body(source.name, source.format, source.crs, **source.settings),
             planes, thickness=thickness, fit=not cuts.as_they_are, scale=cuts.scale,
-            method=method.function, threads=source.threads, **method.parameters,
+            merge=method.merge, method=method.function, threads=source.threads, **method.parameters,
         )  # fmt: skip
     curves = found.curves(flat=cuts.flat)
     _write({name: orientation.of(each, None) for name, each in curves.items()}, output)

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from crustline.errors import FormatError, InputError, shown
 from crustline.formats.dxf import DXF
+from crustline.formats.e57 import E57
 from crustline.formats.excel import EXCEL
 from crustline.formats.format import Format, Option
 from crustline.formats.geojson import GEOJSON
 from crustline.formats.image import IMAGE
 from crustline.formats.json_points import JSON
 from crustline.formats.las import LAS, LAZ
+from crustline.formats.mesh import OBJ, STL
 from crustline.formats.npy import NPY, NPZ
 from crustline.formats.parquet import FEATHER, PARQUET
+from crustline.formats.ply import PLY
+from crustline.formats.pts import PTS
 from crustline.formats.signatures import foreign
 from crustline.formats.source import Source
 from crustline.formats.svg import SVG
@@ -47,6 +51,11 @@ FORMATS = {
         IMAGE,
         LAS,
         LAZ,
+        PLY,
+        PTS,
+        E57,
+        STL,
+        OBJ,
     )
 }
 
@@ -84,6 +93,8 @@ def format_of_source(source: Source, name: str | None, task: str = "read") -> Fo
             f"{source.name} is {known[0].title} inside: name it {known[0].suffixes[0]}"
         )
     what = foreign(source.head)
+    if any(source.suffix in each.suffixes for each in able("mesh") if not each.can(task)):
+        what = "a surface in space: cut it by planes (--slice z=0)"
     if what is not None:
         raise FormatError(f"{source.name} is {what}")
     if claimed or XYZ.can(task):

@@ -18,9 +18,7 @@ _SIGNATURES = (
     (b"7z\xbc\xaf\x27\x1c", "a 7z archive: unpack it first"),
     (b"Rar!", "a RAR archive: unpack it first"),
     (b"\x80\x04\x95", f"a Python pickle, which is not read: {_CONVERT}"),
-    (b"solid ", "an STL file of a surface: crustline reads points of the plane"),
-    (b"ply\n", f"a PLY file: {_CONVERT}"),
-    (b"ply\r", f"a PLY file: {_CONVERT}"),
+    (b"solid ", "an STL file of a surface: name it .stl, and cut it by planes (--slice z=0)"),
 )
 _ARCHIVES = (
     (b"xl/", "an Excel file: name it .xlsx"),

@@ -11,25 +11,32 @@ import numpy as np
 from crustline.arrays import FloatArray, as_floats
 from crustline.errors import InputError
 from crustline.formats import Source, stream
-from crustline.formats.catalog import format_of_source
+from crustline.formats.catalog import able, format_of_source
 from crustline.formats.cloud import Chunk, chunks_of_array
 from crustline.formats.crs import normalize_crs
+from crustline.formats.format import Format
+from crustline.formats.mesh import sound
 from crustline.formats.reading import opened
 from crustline.points import Points, as_crs
 from crustline.slices.cloud import Cloud
+from crustline.slices.mesh import Mesh
 
 __all__ = ["as_body"]
 
 
-def as_body(body: Any, format: str | None = None, crs: str | None = None, **options: Any) -> Cloud:
-    """Return what a caller gives as a cloud."""
-    if isinstance(body, Cloud):
+def as_body(
+    body: Any, format: str | None = None, crs: str | None = None, **options: Any
+) -> Cloud | Mesh:
+    """Return what a caller gives as a cloud or a mesh."""
+    if isinstance(body, Cloud | Mesh):
         return body
     named = None if as_crs(crs) is None else normalize_crs(str(crs))
     if isinstance(body, Points):
         return _of_array(_with_heights(body), "points", named or body.crs)
     if isinstance(body, str | os.PathLike | bytes | Source) or hasattr(body, "read"):
         return _of_file(body, format, named, options)
+    if hasattr(body, "vertices") and hasattr(body, "faces"):  # of trimesh, or alike
+        return _of_faces(body, named)
     xyz = as_floats("body", body)
     if xyz.ndim != 2 or xyz.shape[1] != 3:
         raise InputError(f"the shape of the cloud is {xyz.shape}, not (n, 3): give x, y and z")
@@ -46,15 +53,42 @@ def _of_array(xyz: FloatArray, name: str, crs: str | None) -> Cloud:
     return Cloud(name, lambda box: chunks_of_array(xyz), crs)
 
 
-def _of_file(path: Any, format: str | None, crs: str | None, options: dict[str, Any]) -> Cloud:
+def _of_faces(body: Any, crs: str | None) -> Mesh:
+    vertices = as_floats("vertices", body.vertices)
+    faces = np.asarray(body.faces)
+    if vertices.ndim != 2 or vertices.shape[1] != 3 or faces.ndim != 2 or faces.shape[1] != 3:
+        raise InputError(
+            f"the mesh has vertices of shape {vertices.shape} and faces of shape {faces.shape}, "
+            "not (n, 3) and (m, 3): give triangles"
+        )
+    return Mesh.of(
+        "the mesh", *sound(vertices, faces.astype(np.int64), Source(b"", "the mesh")), crs
+    )
+
+
+def _of_file(
+    path: Any, format: str | None, crs: str | None, options: dict[str, Any]
+) -> Cloud | Mesh:
     source = opened(path)
-    chosen = format_of_source(source, format)
+    chosen = _format_of(source, format)
+    triangles = chosen.mesh(source) if chosen.mesh else None
+    if triangles is not None:
+        return Mesh.of(source.name, *triangles, crs)
     chosen.require()
     if chosen.cloud is None:
         return Cloud(source.name, lambda box: _streamed(source, chosen.name, options), crs)
     settings = chosen.settings("cloud", options)
     read = chosen.cloud
     return Cloud(source.name, lambda box: read(source, box, **settings), crs)
+
+
+def _format_of(source: Source, name: str | None) -> Format:
+    """Return the format of a surface by its name or suffix, or else that of points."""
+    for each in able("mesh"):
+        by_suffix = name is None and source.suffix in each.suffixes
+        if name == each.name or by_suffix:
+            return each
+    return format_of_source(source, name)
 
 
 def _streamed(source: Source, format: str, options: dict[str, Any]) -> Iterator[Chunk]:
