@@ -33,8 +33,8 @@ demo: build ## Reconstruct a coast with islands; says which picture and GeoJSON 
 	@mkdir -p demo
 	@$(BIN)/crustline reconstruct examples/goose.csv -o demo/goose.geojson -o demo/goose.svg
 	@$(BIN)/crustline reconstruct examples/new_zealand.csv --polygons -o demo/new_zealand.geojson -o demo/new_zealand.svg
-	@$(BIN)/crustline plot examples/goose.csv -o demo/goose.png --show points,crust
-	@$(BIN)/crustline plot examples/new_zealand.csv -o demo/new_zealand.png --show points,crust
+	@$(BIN)/crustline plot examples/goose.csv -o demo/goose.png --show points,curves
+	@$(BIN)/crustline plot examples/new_zealand.csv -o demo/new_zealand.png --show points,curves
 	@echo "Pictures: demo/goose.png, demo/new_zealand.png (and .svg); GeoJSON: demo/goose.geojson, demo/new_zealand.geojson"
 
 test: test-rust lint types test-python ## Prove that it works: cargo tests, lints, types, pytest with doctests.

@@ -314,7 +314,7 @@ def test_the_least_feature_size_of_a_spot_is_shown() -> None:
 def test_picture_writes_the_same_bytes_again(suffix: str, tmp_path: Path) -> None:
     first, again = tmp_path / f"first{suffix}", tmp_path / f"again{suffix}"
     for path in (first, again):
-        plot.picture(figures(), path, show=["points", "crust", "voronoi"])
+        plot.picture(figures(), path, show=["points", "curves", "voronoi"])
     assert first.read_bytes() == again.read_bytes()
     assert len(first.read_bytes()) > 1000
 
@@ -339,7 +339,7 @@ def test_picture_shows_each_layer(layer: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("n", [0, 1, 2])
 def test_picture_of_hardly_any_points(n: int, tmp_path: Path) -> None:
-    plot.picture(SQUARE[:n], tmp_path / "few.svg", show=["points", "crust", "delaunay", "voronoi"])
+    plot.picture(SQUARE[:n], tmp_path / "few.svg", show=["points", "curves", "delaunay", "voronoi"])
     assert (tmp_path / "few.svg").exists()
 
 

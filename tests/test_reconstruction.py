@@ -62,7 +62,7 @@ def test_the_command_triangulates_once(
     command: str, triangulations: list[int], tmp_path: Path
 ) -> None:
     cl.Points(POINTS).write(tmp_path / "points.csv")
-    suffix, more = ("svg", ["--show", "lfs,certificate,medial-axis,delaunay,crust"])
+    suffix, more = ("svg", ["--show", "lfs,certificate,medial-axis,delaunay,curves"])
     if command != "plot":
         suffix, more = ("csv", ["-r", "0.5"] if command == "thin" else [])
     files = [str(tmp_path / "points.csv"), "-o", str(tmp_path / f"out.{suffix}")]

@@ -13,7 +13,7 @@ from crustline.errors import InputError
 from crustline.scalars import as_degrees
 
 LAYERS = (
-    "points", "delaunay", "voronoi", "crust", "medial-axis", "lfs", "confidence",
+    "points", "delaunay", "voronoi", "curves", "medial-axis", "lfs", "confidence",
     "certificate", "indices",
 )  # fmt: skip
 
@@ -21,20 +21,20 @@ LAYERS = (
 @click.command(cls=Sectioned)
 @source_options
 @picture_options(".png", ".svg", ".pdf")
-@click.option("--show", default="points,crust", show_default=True, metavar="WORDS",
+@click.option("--show", default="points,curves", show_default=True, metavar="WORDS",
               help=f"What to draw, any of {', '.join(LAYERS)}.")  # fmt: skip
 @method_options
 @fit_options
 def plot(source: Source, output: Output, show: str, method: Method) -> None:
     """Draw points and what is computed from them.
 
-    INPUT is a file of points; - is standard input. Writes a picture: `crust`
-    is the curves that the method finds, `confidence` how sure it is of them, `lfs` colors points by
+    INPUT is a file of points; - is standard input. Writes a picture: `curves`
+    are those that the method finds, `confidence` how sure it is of them, `lfs` colors points by
     their local feature size, `indices` numbers them. With --fit it is the fitted curves, in a band
     as wide as they are uncertain. Needs matplotlib: pip install 'crustline[plot]'.
 
     \b
-        crustline plot goose.csv -o goose.png --show points,crust,medial-axis
+        crustline plot goose.csv -o goose.png --show points,curves,medial-axis
     """
     layers = [word.strip() for word in show.split(",")]
     for word in layers:

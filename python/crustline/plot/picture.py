@@ -32,7 +32,7 @@ LAYERS: dict[str, Callable[[Reconstruction, Axes], Axes]] = {
     "delaunay": lambda made, ax: plot_delaunay(made.delaunay, ax, points=False),
     "voronoi": lambda made, ax: plot_voronoi(made.delaunay, ax, points=False),
     "medial-axis": lambda made, ax: plot_medial_axis(made.medial_axis, ax),
-    "crust": lambda made, ax: (
+    "curves": lambda made, ax: (
         plot_curves(made.curves, ax, points=False)
         if made.denoised is None
         else plot_denoised(made.denoised, ax, points=False)
@@ -50,7 +50,7 @@ def picture(
     points: ArrayLike | Delaunay | Reconstruction,
     path: str | os.PathLike[str],
     *,
-    show: Sequence[str] = ("points", "crust"),
+    show: Sequence[str] = ("points", "curves"),
 ) -> None:
     """Write a picture of points and of what is computed from them to a file.
 
@@ -61,7 +61,7 @@ def picture(
     path : str or path-like
         Where to write; the suffix .png, .svg or .pdf decides the format.
     show : sequence of str
-        What to draw, any of "points", "delaunay", "voronoi", "crust" (the curves that the method
+        What to draw, any of "points", "delaunay", "voronoi", "curves" (those that the method
         finds), "confidence" (how sure `connect` is of each edge), "medial-axis", "lfs",
         "certificate", "indices", in any order.
 
