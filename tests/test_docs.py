@@ -56,11 +56,17 @@ def run(arguments: list[str], capfd: pytest.CaptureFixture[str]) -> None:
 
 
 def assert_same_picture(one: str, other: str) -> None:
-    """Assert that pictures are equal, but for the last digits of sines, which systems differ in."""
+    """Assert that pictures are equal, but for the last digits of sines, which systems differ in.
+
+    Photographs in them are packed otherwise by other versions of their libraries, and edges in
+    these are found in single precision.
+    """
+    digits = 1e-3 if "data:image" in other else 1e-9
+    one, other = (re.sub(r'"data:image[^"]*"', "#", each) for each in (one, other))
     number = r"-?\d+\.\d+(?:e-?\d+)?"
     assert re.sub(number, "#", one) == re.sub(number, "#", other)
     numbers = zip(re.findall(number, one), re.findall(number, other), strict=True)
-    assert all(float(a) == pytest.approx(float(b), abs=1e-9) for a, b in numbers)
+    assert all(float(a) == pytest.approx(float(b), abs=digits) for a, b in numbers)
 
 
 @pytest.fixture
@@ -92,7 +98,9 @@ def draw_goose(path: Path) -> None:
 @pytest.mark.parametrize("name", ["README.md", "docs/tutorial.md", *TUTORIALS])
 def test_what_the_page_shows_is_what_happens(name, capfd):
     modules = (
-        ("geopandas", "ezdxf") if name in TUTORIALS else ("matplotlib", "skimage", "svgelements")
+        ("geopandas", "ezdxf", "skimage")
+        if name in TUTORIALS
+        else ("matplotlib", "skimage", "svgelements")
     )
     for module in modules:
         pytest.importorskip(module)

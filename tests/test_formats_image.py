@@ -303,6 +303,59 @@ def test_the_command_refuses_in_a_line_and_writes_nothing(tmp_path, monkeypatch,
     assert sorted(path.name for path in tmp_path.iterdir()) == ["photo.png"]
 
 
+@pytest.mark.parametrize("name", ["photo.png", "photo.tif"])
+def test_a_drawing_over_a_picture_fits_pixel_on_pixel(tmp_path, name):
+    resvg = pytest.importorskip("resvg_py")
+    path = tmp_path / name
+    path.write_bytes(packed(GRAY, "PNG"))
+    if name.endswith("tif"):
+        geotiff(path, GRAY, transform=PLACE, crs="EPSG:25832")
+    curves = cl.reconstruct(cl.read(path))
+    cl.write(curves, tmp_path / "over.svg", over=path)
+    text = (tmp_path / "over.svg").read_text()
+    assert 'viewBox="0 0 128 128"' in text
+    drawn = bytes(resvg.svg_to_bytes(svg_string=text, width=1280, height=1280))
+    image = np.asarray(Image.open(io.BytesIO(drawn)).convert("RGB")).astype(int)
+    # The stroke is where the picture changes, and the picture inside and outside of it.
+    orange = (image[..., 0] - image[..., 2]) > 100
+    rows, columns = np.nonzero(orange)
+    far = np.hypot((columns + 0.5) / 10 - CIRCLE[0], (rows + 0.5) / 10 - CIRCLE[1]) - CIRCLE[2]
+    assert len(far) > 1000
+    assert np.abs(far).max() < 1.3
+    assert image[667, 613].min() > 240
+    assert image[5, 5].max() < 15
+
+
+def test_over_what_is_no_picture_is_refused(tmp_path):
+    curves = cl.reconstruct([(0, 0), (1, 0), (0, 1)])
+    with pytest.raises(cl.FormatError, match="no such file"):
+        cl.write(curves, tmp_path / "over.svg", over=str(tmp_path / "missing.png"))
+    (tmp_path / "text.png").write_text("x,y")
+    with pytest.raises(cl.FormatError, match="no picture that is known"):
+        cl.write(curves, tmp_path / "over.svg", over=str(tmp_path / "text.png"))
+    assert not (tmp_path / "over.svg").exists()
+
+
+def test_a_plot_is_joined_in_pixels(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    stroke = 255 - np.round(255 * ring(128, *CIRCLE, 3)).astype(np.uint8)
+    Path("plot.png").write_bytes(packed(stroke, "PNG"))
+    axes = "0,127=0,1e-6 127,0=1e6,1e6 log=y"
+    words = ["reconstruct", "plot.png", "--lines", "--axes", axes, "-o", "curve.geojson"]
+    with pytest.raises(SystemExit) as caught:
+        main(words)
+    assert caught.value.code == 0
+    curves = cl.read_curves("curve.geojson")
+    assert curves.closed.tolist() == [True]
+    assert np.ptp(curves.points.xy[:, 1]) > 1000
+    pixels = np.column_stack([curves.points.columns[f"pixel_{axis}"] for axis in "xy"])
+    assert_is_circle(cl.Points(pixels), 0.15)
+    with pytest.raises(SystemExit) as caught:
+        main([*words, "--fit"])
+    assert caught.value.code == 2
+    assert "--axes and --fit exclude each other" in capsys.readouterr().err
+
+
 def test_options_are_in_the_table():
     names = {option.spelling for option in FORMATS["image"].options}
     assert names == {

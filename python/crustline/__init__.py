@@ -42,6 +42,7 @@ if TYPE_CHECKING:
         gamma_graph,
         gathan,
         hnn_crust,
+        in_columns,
         minimum_spanning_tree,
         nn_crust,
         one_step_crust,
@@ -79,7 +80,7 @@ _NAMES = {
     "methods": (
         "METHODS a_shape alpha_shape beta_skeleton by_group close_gaps compatible_crust "
         "conservative_crust crawl crossing_angle_graph crust gabriel gamma_graph gathan "
-        "hnn_crust minimum_spanning_tree nn_crust one_step_crust peel rcgh "
+        "hnn_crust in_columns minimum_spanning_tree nn_crust one_step_crust peel rcgh "
         "relative_neighborhood sig_delaunay"
     ),
     "methods.connect": "connect",
@@ -173,6 +174,7 @@ __all__ = [
     "gathan",
     "guaranteed_r",
     "hnn_crust",
+    "in_columns",
     "is_r_sample",
     "local_feature_size",
     "max_edge_interval",

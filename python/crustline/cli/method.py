@@ -23,7 +23,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Method:
-    """A method by its name, the parameters that were set for it, and whether curves are fitted."""
+    """A method by its name, the parameters that were set for it, and whether curves are fitted.
+
+    With `columns` it connects by them in place of x and y.
+    """
 
     name: str
     parameters: dict[str, Any]
@@ -31,14 +34,17 @@ class Method:
     fit: bool = False
     noise: str | None = None
     merge: float | None = None
+    columns: tuple[str, str] | None = None
 
     @property
     def function(self) -> Callable[..., Any]:
         """The function from points to edges."""
-        from crustline.methods import METHODS
+        from crustline.methods import METHODS, in_columns
         from crustline.projection import projected
 
         function = METHODS[self.name]
+        if self.columns is not None:
+            return in_columns(function, *self.columns)
         return function if self.project is None else projected(function, self.project)
 
     def reconstruction(self, delaunay: Delaunay) -> Reconstruction:

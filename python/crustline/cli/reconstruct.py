@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -110,6 +111,7 @@ def reconstruction(
     from crustline.reconstruction import Reconstruction
 
     points = source.read()
+    method = _in_pixels(source, method)
     _warn_of_degrees(source, points, method)
     with progress_bar(quiet) as progress:
         delaunay = Delaunay(points, threads=source.threads, progress=progress)
@@ -118,6 +120,18 @@ def reconstruction(
         else:
             _refuse_what_groups_lack(method)
             yield Reconstruction(delaunay, _grouped(points, by, method))
+
+
+def _in_pixels(source: Source, method: Method) -> Method:
+    """Connect a digitized plot in its pixels: its axes may differ in unit and scale."""
+    from crustline.formats.image import PIXELS
+
+    if source.settings.get("axes") is None:
+        return method
+    if method.fit or method.project:
+        other = "--fit" if method.fit else "--project"
+        raise InputError(f"--axes and {other} exclude each other: leave one of them away")
+    return replace(method, columns=PIXELS)
 
 
 @contextmanager

@@ -29,7 +29,8 @@ def read(
 ) -> Points:
     """Return points of the edges, or of what `mask`, `color` and `lines` say.
 
-    They are in the world if the picture says where it is, or what the axes of a plot show.
+    They are in the world if the picture says where it is, or what the axes of a plot show; then
+    the pixels are columns beside them.
     """
     wanted = _Search(**search)
     raster = open_raster(source, band, pixels or axes is not None)
@@ -40,6 +41,8 @@ def read(
         return _placed(points, raster, axes)
 
 
+#: The columns of the pixels, beside what axes show: distances mean something between them.
+PIXELS = ("pixel_x", "pixel_y")
 _ADVICE = {
     "edge": "look for weaker ones (--contrast 0.05), or for a color (--color '#d00')",
     "boundary": "give a mask with bright and dark, or another color (--color '#d00')",
@@ -81,7 +84,8 @@ class _Search:
 
 def _placed(points: FloatArray, raster: Raster, axes: Axes | None) -> Points:
     if axes is not None:
-        return own_points(axes.place(points))
+        pixels = dict(zip(PIXELS, points.T.copy(), strict=True))
+        return own_points(axes.place(points), columns=pixels)
     if raster.placement is not None:
         return own_points(raster.placement.place(points), crs=raster.placement.crs)
     return own_points(points)

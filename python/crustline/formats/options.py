@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from numbers import Integral
 from typing import Any
 
@@ -12,6 +13,7 @@ __all__ = [
     "COLUMNS",
     "ENCODING",
     "LAYER",
+    "OVER",
     "POLYGONS",
     "TOLERANCE",
     "UNIT",
@@ -105,6 +107,15 @@ COLUMNS = Option(
 )
 LAYER = text("layer", "The layer to read, of a file with several.", "NAME")
 WHERE = text("where", "Read only the rows that fit, in SQL, such as \"kind = 'coast'\".", "SQL")
+
+
+def _as_path(value: Any) -> str:
+    if not isinstance(value, str | os.PathLike) or not os.fspath(value):
+        raise ValueError("give the name of a picture")
+    return os.fspath(value)
+
+
+OVER = Option("over", "Draw over this picture, which the curves are of.", _as_path, "PICTURE")
 POLYGONS = flag("polygons", "Write rings as polygons with holes.")
 TOLERANCE = length(
     "tolerance", "How far splines may be from what is written, in the unit of the points.", "T"

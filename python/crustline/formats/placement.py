@@ -35,6 +35,12 @@ class Placement:
         placed: FloatArray = (points * (1.0, -1.0)) @ self.matrix[:, :2].T + self.matrix[:, 2]
         return placed
 
+    def pixels_of(self, places: FloatArray) -> FloatArray:
+        """Return the pixel coordinates of places in the world."""
+        inverse = np.linalg.inv(self.matrix[:, :2])
+        pixels: FloatArray = ((places - self.matrix[:, 2]) @ inverse.T) * (1.0, -1.0)
+        return pixels
+
 
 def world_file_of(source: Source) -> Placement | None:
     """Return what a world file beside a picture says, and the CRS of a .prj beside that."""

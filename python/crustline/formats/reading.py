@@ -50,6 +50,7 @@ def read(
         Pictures: the color of an area or, with `lines`, of strokes, such as "#d00".
     axes : str or crustline.images.Axes, optional
         Pictures of plots: what the axes show, such as "60,430=0,1 560,30=10,1e4 log=y".
+        The pixels are the columns pixel_x and pixel_y then; connect by `crustline.in_columns`.
     pixels : bool, default False
         Pictures: pixels in place of coordinates of the world. See `crustline.images`.
 

@@ -10,8 +10,9 @@ import numpy as np
 from crustline.arrays import FloatArray
 from crustline.curves import Curves, Feature
 from crustline.formats.attributes import without_curves
+from crustline.formats.backdrop import Backdrop, backdrop
 from crustline.formats.format import Format
-from crustline.formats.options import POLYGONS, TOLERANCE, UNIT
+from crustline.formats.options import OVER, POLYGONS, TOLERANCE, UNIT
 from crustline.formats.target import Target
 from crustline.path import Path
 from crustline.points import Points
@@ -20,9 +21,10 @@ from crustline.smooth import Splines
 _WIDTH = 800
 _MARGIN = 0.03
 _STYLE = (
-    'fill="none" fill-rule="evenodd" stroke="#1f5fa8" '
-    'stroke-linejoin="round" stroke-linecap="round"'
+    'fill="none" fill-rule="evenodd" stroke="{}" stroke-linejoin="round" stroke-linecap="round"'
 )
+#: The color of strokes on paper, and over a picture.
+_BLUE, _ORANGE = "#1f5fa8", "#f97316"
 _STYLES = {
     "polygon": ' fill="#1f5fa8" fill-opacity="0.15"',
     "line": "",
@@ -38,35 +40,54 @@ _UNITS = {
 }  # fmt: skip
 
 
-def write_curves(curves: Curves, target: Target, *, polygons: bool = False, unit: str = "") -> None:
+def write_curves(
+    curves: Curves,
+    target: Target,
+    *,
+    polygons: bool = False,
+    unit: str = "",
+    over: str | None = None,
+) -> None:
     """Write a picture of curves; the same curves give the same text."""
-    target.write(picture_of_curves(curves, polygons=polygons, unit=unit))
+    target.write(picture_of_curves(curves, polygons=polygons, unit=unit, over=over))
 
 
-def write_points(points: Points, target: Target, *, unit: str = "") -> None:
+def write_points(
+    points: Points, target: Target, *, unit: str = "", over: str | None = None
+) -> None:
     """Write a picture of points, as dots."""
-    target.write(picture_of_curves(without_curves(points), unit=unit))
+    target.write(picture_of_curves(without_curves(points), unit=unit, over=over))
 
 
 def write_splines(
-    splines: Splines, target: Target, *, tolerance: float | None = None, unit: str = ""
+    splines: Splines,
+    target: Target,
+    *,
+    tolerance: float | None = None,
+    unit: str = "",
+    over: str | None = None,
 ) -> None:
     """Write a picture of splines as cubic Bézier paths, closed by Z if they are rings."""
-    target.write(picture_of_splines(splines, tolerance, unit))
+    target.write(picture_of_splines(splines, tolerance, unit, over))
 
 
-def picture_of_curves(curves: Curves, *, polygons: bool = False, unit: str = "") -> str:
+def picture_of_curves(
+    curves: Curves, *, polygons: bool = False, unit: str = "", over: str | None = None
+) -> str:
     """Return a picture of curves: a path for each, dots for the isolated points.
 
-    With a unit of the coordinates its size is that of the curves, for what cuts or prints it.
+    With a unit of the coordinates its size is that of the curves, for what cuts or prints it. Over
+    a picture, which is embedded, it has that picture's size and pixels.
     """
     features = list(curves.features(polygons=polygons))
     paths = [Path.of_feature(feature, curves.points.xy) for feature in features]
     drawn = zip(features, paths, strict=True)
-    return _document(_frame_of(curves.points.xy), curves, drawn, unit)
+    return _document(_frame(curves.points.xy, over), curves, drawn, unit)
 
 
-def picture_of_splines(splines: Splines, tolerance: float | None = None, unit: str = "") -> str:
+def picture_of_splines(
+    splines: Splines, tolerance: float | None = None, unit: str = "", over: str | None = None
+) -> str:
     """Return a picture of splines: that of their curves, with cubics in place of lines."""
     curves = splines.curves
     features = list(curves.features())
@@ -75,7 +96,7 @@ def picture_of_splines(splines: Splines, tolerance: float | None = None, unit: s
     drawn = [(line, Path.beziers(control, line.closed)) for line, control in controls]
     drawn += [(each, Path.of_feature(each, curves.points.xy)) for each in lonely]
     # Control points enclose their curve.
-    frame = _frame_of(Path.joined(path for _, path in drawn).vertices)
+    frame = _frame(Path.joined(path for _, path in drawn).vertices, over)
     return _document(frame, curves, drawn, unit)
 
 
@@ -92,9 +113,20 @@ class _Frame:
     scale: float
     low: FloatArray
     high: FloatArray
+    under: Backdrop | None = None
 
     def place(self, path: Path) -> Path:
+        if self.under is not None:
+            return replace(path, vertices=self.under.pixels_of(path.vertices))
         return replace(path, vertices=(path.vertices - self.origin) * self.scale)
+
+
+def _frame(coordinates: FloatArray, over: str | None) -> _Frame:
+    if over is None:
+        return _frame_of(coordinates)
+    under = backdrop(over)
+    corner = np.array([under.width, -under.height], np.float64)
+    return _Frame(np.zeros(2), 1.0, np.minimum(corner, 0), np.maximum(corner, 0), under)
 
 
 def _frame_of(coordinates: FloatArray) -> _Frame:
@@ -118,7 +150,7 @@ def _document(
     frame: _Frame, curves: Curves, drawn: Iterable[tuple[Feature, Path]], unit: str
 ) -> str:
     """Return the whole drawing: features, placed in the frame, under a title that counts."""
-    margin = _MARGIN * float((frame.high - frame.low).max()) or 1.0
+    margin = 0.0 if frame.under else _MARGIN * float((frame.high - frame.low).max()) or 1.0
     x, y = frame.low - margin
     width, height = frame.high - frame.low + 2 * margin
     box = " ".join(f"{each:.9g}" for each in (x, -y - height, width, height))
@@ -127,10 +159,12 @@ def _document(
     size = _size(width, height, unit, frame) if unit else f'width="{_WIDTH}" height="{pixels}"'
     note = f' data-origin="{frame.origin[0]!s} {frame.origin[1]!s}" data-scale="{frame.scale!r}"'
     plain = not frame.origin.any() and frame.scale == 1
+    style = _STYLE.format(_ORANGE if frame.under else _BLUE)
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" {size}{"" if plain else note}>',
         f"<title>{_title(curves)}</title>",
-        f'<g transform="scale(1 -1)" {_STYLE} stroke-width="{_LINE * pixel:.4g}">',
+        *([frame.under.svg()] if frame.under else []),
+        f'<g transform="scale(1 -1)" {style} stroke-width="{_LINE * pixel:.4g}">',
         *_elements(frame, drawn, f' stroke-width="{_DOT * pixel:.4g}"'),
         "</g>",
         "</svg>",
@@ -166,5 +200,5 @@ SVG = Format(
     write_points=write_points,
     write_curves=write_curves,
     write_splines=write_splines,
-    options=(POLYGONS, TOLERANCE, UNIT),
+    options=(POLYGONS, TOLERANCE, UNIT, OVER),
 )

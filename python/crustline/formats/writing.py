@@ -39,6 +39,9 @@ def write(thing: Any, path: Any, *, format: str | None = None, **options: Any) -
     tolerance : float, optional
         Splines: as few pieces as stay within this distance of them, in the unit of the points. By
         default the pieces are the splines themselves.
+    over : path-like, optional
+        SVG: the picture that the curves were found in, in pixels or in the world; the drawing has
+        its size, and shows it below the curves.
 
     Raises
     ------

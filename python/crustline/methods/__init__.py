@@ -9,6 +9,7 @@ from collections.abc import Callable
 
 from crustline.arrays import IntArray
 from crustline.methods.alpha_shapes import a_shape, alpha_shape
+from crustline.methods.columns import in_columns
 from crustline.methods.connect import connect
 from crustline.methods.crusts import as_selected, crust, nn_crust, one_step_crust, rcgh
 from crustline.methods.gaps import close_gaps
@@ -76,6 +77,7 @@ __all__ = [
     "gamma_graph",
     "gathan",
     "hnn_crust",
+    "in_columns",
     "minimum_spanning_tree",
     "name_of",
     "nn_crust",
