@@ -37,7 +37,7 @@ def in_columns(method: Callable[..., Any], x: str, y: str) -> Callable[..., Any]
 
     Examples
     --------
-    >>> from crustline.methods import crust
+    >>> from crustline import Points, crust
     >>> plot = Points([(0, 1), (1, 10), (2, 100)], columns={"u": [0, 1, 2], "v": [0, 1, 2]})
     >>> in_columns(crust, "u", "v")(plot).tolist()
     [[0, 1], [1, 2]]
