@@ -6,6 +6,7 @@ written as XYZ, too: numbers alone, without a header.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import partial
 from typing import Any
 
@@ -18,6 +19,7 @@ from crustline.formats.text.curves import curves_of
 from crustline.formats.text.dialect import find_dialect
 from crustline.formats.text.geometries import find_geometries, points_of_geometries
 from crustline.formats.text.lines import Lines, split_lines, unbounded_cells
+from crustline.formats.text.pieces import LARGE, pieces_of, read_large
 from crustline.formats.text.settings import OPTIONS, Settings
 from crustline.formats.text.writer import write_curves, write_points, write_xyz
 from crustline.points import Points
@@ -28,6 +30,8 @@ __all__ = ["CSV", "TSV", "XYZ"]
 def read(source: Source, **options: Any) -> Points:
     """Return the points of columns of text; the options are those of `Settings`."""
     settings = Settings(**options)
+    if (source.size or 0) > LARGE and (points := read_large(source, settings)) is not None:
+        return points
     with unbounded_cells():
         lines = Lines(source, split_lines(source.text(settings.encoding)), settings.skip_lines or 0)
         if settings.comment is not None:
@@ -42,6 +46,11 @@ def read(source: Source, **options: Any) -> Points:
         return as_points(table, positions, settings)
 
 
+def stream(source: Source, rows: int, **options: Any) -> Iterator[Points]:
+    """Yield the points of so many lines at a time."""
+    return pieces_of(source, rows, Settings(**options))
+
+
 def read_curves(source: Source, **options: Any) -> Curves:
     """Return the curves of columns curve, order, row and closed."""
     return curves_of(read(source, **options), source)
@@ -52,6 +61,7 @@ CSV = Format(
     title="CSV",
     suffixes=(".csv",),
     read=read,
+    stream=stream,
     read_curves=read_curves,
     write_points=partial(write_points, delimiter=","),
     write_curves=partial(write_curves, delimiter=","),
@@ -62,6 +72,7 @@ TSV = Format(
     title="TSV",
     suffixes=(".tsv", ".tab"),
     read=read,
+    stream=stream,
     read_curves=read_curves,
     write_points=partial(write_points, delimiter="\t"),
     write_curves=partial(write_curves, delimiter="\t"),
@@ -72,6 +83,7 @@ XYZ = Format(
     title="XYZ",
     suffixes=(".xyz", ".txt", ".dat", ".asc"),
     read=read,
+    stream=stream,
     write_points=write_xyz,
     options=OPTIONS,
 )

@@ -61,9 +61,9 @@ class Table:
     def line(self, row: int) -> int:
         """Return the number of a row's line, counted from 1."""
         if self.positions is not None:
-            return self.positions[row] + 1
+            return self.lines.number(self.positions[row])
         rows = self.lines.rows(self.dialect.separator, self.dialect.first)
-        return next(islice(rows, row, None))[0] + 1
+        return self.lines.number(next(islice(rows, row, None))[0])
 
     def error(self, row: int, column: int | None, fault: str) -> FormatError:
         """Return the error about a row, or a cell of it."""
@@ -76,7 +76,7 @@ class Table:
             return self
         rows = np.flatnonzero(kept).tolist()
         columns = {k: _taken(column, rows) for k, column in self.columns.items()}
-        positions = [self.line(row) - 1 for row in rows] if self.positions else None
+        positions = [self.positions[row] for row in rows] if self.positions else None
         return Table(self.lines, self.dialect, columns, positions, self.mark, self.bad)
 
 
@@ -210,7 +210,7 @@ def _misfit(table: Table, position: int, cells: list[str], width: int) -> Format
     if table.dialect.separator == "," and len(cells) == 2 * width:
         advice = "if commas mark decimals, too, save the file with semicolons between columns"
     return table.lines.source.error(
-        f"the row has {what}, not {width}: {advice}", f"line {position + 1}"
+        f"the row has {what}, not {width}: {advice}", f"line {table.lines.number(position)}"
     )
 
 

@@ -16,7 +16,7 @@ from crustline.formats.text.numbers import Mark, parse_all
 from crustline.formats.text.settings import Settings
 from crustline.points import Points
 
-__all__ = ["as_points", "choose_coordinates"]
+__all__ = ["as_points", "choose_coordinates", "holds_sentinels", "is_count"]
 
 #: What programs write where a value is missing.
 _SENTINELS = (-9999.0, -99999.0, -999.0, -32768.0, -999999.0, 1e20, 9.96920996838687e36, 1e30)
@@ -39,11 +39,13 @@ def choose_coordinates(lines: Lines, dialect: Dialect, settings: Settings) -> li
     return positions
 
 
-def as_points(table: Table, positions: Sequence[int], settings: Settings) -> Points:
-    """Return the rows as points, with the other columns beside them."""
-    if not len(table):
+def as_points(
+    table: Table, positions: Sequence[int], settings: Settings, *, whole: bool = True
+) -> Points:
+    """Return the rows as points, with the other columns beside them; of a piece, if not `whole`."""
+    if whole and not len(table):
         table.lines.source.warn("it has no rows: it names columns, and no points follow")
-    table = _less_count(table, settings)
+    table = _less_count(table, settings) if whole else table
     values, bad = _numbers(table, positions, settings.on_bad_row == "skip")
     values, gone = _less_missing(table, values, positions, settings)
     kept = ~(bad | gone)
@@ -161,11 +163,16 @@ def _refuse_sentinels(table: Table, values: FloatArray, positions: Sequence[int]
             )
 
 
+def holds_sentinels(xy: FloatArray) -> bool:
+    """Return whether some coordinate often stands for a missing value."""
+    return bool(np.isin(xy, _SENTINELS).any())
+
+
 def _say_what_was_left_out(table: Table, bad: BoolArray, gone: BoolArray) -> None:
     source = table.lines.source
     count = int(bad.sum()) + len(table.bad)
     if count:
-        lines = [*(position + 1 for position in table.bad[:1])]
+        lines = [table.lines.number(position) for position in table.bad[:1]]
         lines += [table.line(int(np.argmax(bad)))] if bad.any() else []
         source.warn(f"left out {_rows(count)} without a point, from line {min(lines)} on")
     if gone.any():
@@ -190,7 +197,7 @@ def _less_count(table: Table, settings: Settings) -> Table:
     _check_counts(table, rows)
     if settings.skip_lines is not None or settings.header is False or rows < 3:
         return table
-    if table.dialect.header or not _counts(table, rows - 1):
+    if table.dialect.header or not is_count(table, rows - 1):
         return table
     if not table.dialect.titled:
         raise table.error(
@@ -206,8 +213,10 @@ def _less_count(table: Table, settings: Settings) -> Table:
     return table.less(kept)
 
 
-def _counts(table: Table, rows: int) -> bool:
+def is_count(table: Table, rows: int) -> bool:
     """Return whether the first row is whole numbers, the first or the sum of which is `rows`."""
+    if not len(table):
+        return False
     try:
         first = [float(table.columns[k][0]) for k in table.columns]
     except ValueError:

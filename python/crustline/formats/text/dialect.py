@@ -10,7 +10,7 @@ from itertools import islice
 
 from crustline.errors import FormatError
 from crustline.formats.names import find_pair, refuse_repeated
-from crustline.formats.text.lines import Lines, Row, split
+from crustline.formats.text.lines import FIXED, Lines, Row, split
 from crustline.formats.text.numbers import MISSING, looks_numeric
 from crustline.formats.text.settings import Settings
 
@@ -66,7 +66,10 @@ class _Top:
 
 def find_dialect(lines: Lines, settings: Settings) -> tuple[Lines, Dialect]:
     """Return the dialect of lines, and the lines less what it says holds no data."""
-    lines, stated = _stated_separator(lines)
+    if settings.fields is not None:
+        lines, stated = lines.cut(settings.fields), FIXED
+    else:
+        lines, stated = _stated_separator(lines)
     separator = settings.separator or stated or _separator(lines)
     if separator == ";":  # such a line starts with an empty cell
         lines = replace(lines, comments=tuple(each for each in lines.comments if each != ";"))
@@ -314,7 +317,10 @@ def _check_names(lines: Lines, names: Sequence[str], first: Row, separator: str)
 
 
 def _note(lines: Lines, separator: str, top: _Top) -> None:
-    words = {",": "comma", ";": "semicolon", "\t": "tab", "|": "bar", " ": "blanks"}
+    words = {
+        ",": "comma", ";": "semicolon", "\t": "tab", "|": "bar", " ": "blanks",
+        FIXED: "none: fields of fixed width",
+    }  # fmt: skip
     lines.source.note("separator", words[separator])
     lines.source.note("header", "names of columns" if top.names else "none")
     if top.titles:

@@ -5,17 +5,19 @@ from __future__ import annotations
 import csv
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 
 from crustline.formats.source import Source
 
-__all__ = ["Lines", "Row", "split", "split_lines", "unbounded_cells"]
+__all__ = ["FIXED", "Lines", "Row", "split", "split_lines", "unbounded_cells"]
 
 #: A record: the position of its line, and its cells.
 Row = tuple[int, list[str]]
 
+#: What separates cells that were cut from lines at fixed characters: no text holds it.
+FIXED = "\x1f"
 _COMMENTS = ("#", "%", "!", "//", "*", ";")
 _BREAKS = re.compile(r">|&|ZONE\b|[A-Z]+\s*=|END\s*$", re.IGNORECASE)
 _STARRED_NUMBER = re.compile(r"\s*\*[*\s]*[+-]?[\d.]")  # a number too wide for its Fortran format
@@ -39,6 +41,8 @@ class Lines:
         What starts a comment.
     dropped : frozenset of int
         Positions of lines that are known to hold no data.
+    offset : int
+        How many lines of the text are before the first of these.
     """
 
     source: Source
@@ -46,6 +50,15 @@ class Lines:
     first: int = 0
     comments: tuple[str, ...] = _COMMENTS
     dropped: frozenset[int] = field(default_factory=frozenset)
+    offset: int = 0
+
+    def number(self, position: int) -> int:
+        """Return the number of a line in its text, from 1."""
+        return position + self.offset + 1
+
+    def cut(self, fields: Sequence[tuple[int, int]]) -> Lines:
+        """Return the lines with what stands at some characters, from 1, as cells."""
+        return replace(self, all=[_cut(line, fields) for line in self.all])
 
     def with_comments(self, mark: str) -> Lines:
         """Return the lines with another start of comments."""
@@ -87,13 +100,22 @@ class Lines:
                     yield positions[start], cells
                 start = reader.line_num
         except csv.Error as error:
-            place = f"line {positions[-1] + 1}" if positions else ""
+            place = f"line {self.number(positions[-1])}" if positions else ""
             raise self.source.error(f"{error}: correct the quotes", place) from None
 
     def _noted(self, first: int, positions: list[int]) -> Iterator[str]:
         for position, line in self.data(first):
             positions.append(position)
             yield line + "\n"
+
+
+def _cut(line: str, fields: Sequence[tuple[int, int]]) -> str:
+    cells = [line[first - 1 : last].strip() for first, last in fields]
+    if not line.strip():
+        return ""
+    if '"' in line:
+        cells = ['"' + cell.replace('"', '""') + '"' for cell in cells]
+    return FIXED.join(cells)
 
 
 def split_lines(text: str) -> list[str]:

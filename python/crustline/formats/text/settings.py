@@ -19,6 +19,7 @@ class Settings:
     """The options of the reader; None is for what is to be found."""
 
     columns: Sequence[str | int] | None = None
+    fields: tuple[tuple[int, int], ...] | None = None
     skip_lines: int | None = None
     comment: str | None = None
     header: bool | None = None
@@ -46,8 +47,27 @@ def _as_missing(value: Any) -> tuple[float, ...]:
         raise ValueError("give numbers, such as -9999, or none") from None
 
 
+def _as_fields(value: Any) -> tuple[tuple[int, int], ...]:
+    advice = "give the first and last character of each column, such as 1-8,9-16"
+    try:
+        parts = value.split(",") if isinstance(value, str) else value
+        pairs = [part.split("-") if isinstance(part, str) else part for part in parts]
+        fields = tuple((int(first), int(last)) for first, last in pairs)
+    except (TypeError, ValueError):
+        raise ValueError(advice) from None
+    if len(fields) < 2 or not all(1 <= first <= last for first, last in fields):
+        raise ValueError(advice)
+    return fields
+
+
 OPTIONS = (
     COLUMNS,
+    Option(
+        "fields",
+        "Columns of fixed width: the first and last character of each, from 1, such as 1-8,9-16.",
+        _as_fields,
+        "A-B,C-D",
+    ),
     whole(
         "skip_lines",
         "How many lines to leave out at the top; then nothing else is left out there.",
