@@ -66,11 +66,11 @@ class _Top:
 
 def find_dialect(lines: Lines, settings: Settings) -> tuple[Lines, Dialect]:
     """Return the dialect of lines, and the lines less what it says holds no data."""
+    lines, stated = _stated_separator(lines)
+    separator = settings.separator or stated or ""
     if settings.fields is not None:
-        lines, stated = lines.cut(settings.fields), FIXED
-    else:
-        lines, stated = _stated_separator(lines)
-    separator = settings.separator or stated or _separator(lines)
+        lines, separator = lines.cut(settings.fields), FIXED
+    separator = separator or _separator(lines)
     if separator == ";":  # such a line starts with an empty cell
         lines = replace(lines, comments=tuple(each for each in lines.comments if each != ";"))
     rows = _sample(lines, separator)
