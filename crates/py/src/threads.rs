@@ -28,14 +28,15 @@ static POOLS: LazyLock<Mutex<Pools>> = LazyLock::new(Mutex::default);
 impl Threads {
     /// So many threads; by default `RAYON_NUM_THREADS`, or one a core.
     pub fn get(py: Python<'_>, threads: Option<usize>) -> PyResult<Self> {
+        let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
+        let process = std::process::id();
+        if threads.is_none() && pools.home == Some(process) {
+            return Ok(Self(None));
+        }
+        // The system reads files to tell, which takes longer than a small call.
         let cores = available_parallelism().map_or(1, usize::from);
         let count = threads.or_else(wanted).unwrap_or(cores).min(MOST_FOR_A_CORE * cores.max(4));
-        let made = POOLS.lock().unwrap_or_else(PoisonError::into_inner).pool(
-            std::process::id(),
-            count,
-            threads.is_none(),
-        );
-        made.map(Self).map_err(|error| {
+        pools.pool(process, count, threads.is_none()).map(Self).map_err(|error| {
             let message = format!("the system does not give {count} threads ({error}): pass fewer");
             input_error(py, message)
         })
@@ -51,7 +52,7 @@ impl Threads {
 }
 
 impl Pools {
-    /// A pool of `count` threads for `process`; none where rayon's own serves, as it does for the default in one process.
+    /// A pool of `count` threads for `process`, which has none by default; none where rayon's own serves, as it does in one process.
     fn pool(
         &mut self,
         process: u32,
@@ -62,8 +63,6 @@ impl Pools {
         if is_default && self.home.is_none() {
             builder().build_global()?;
             self.home = Some(process);
-        }
-        if is_default && self.home == Some(process) {
             return Ok(None);
         }
         if let Some(pool) = self.made.get(&(process, count)) {
