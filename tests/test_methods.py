@@ -238,7 +238,7 @@ def test_a_radius_out_of_all_proportion_is_refused(exponent: int, radius: float)
 
 def test_the_table_of_methods_is_complete() -> None:
     """Every public function from points to edges is in the table, and every row of it is public."""
-    public = {name for name in vars(cl) if getattr(cl, name) in METHODS.values()}
+    public = {name for name in cl.__all__ if getattr(cl, name) in METHODS.values()}
     assert {name.replace("-", "_") for name in METHODS} == public
     edges_of_points = {
         name

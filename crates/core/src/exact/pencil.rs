@@ -75,16 +75,6 @@ pub struct Disk {
 }
 
 impl Disk {
-    /// Is it the disk inside `circle`, with the same triangle for its vertex?
-    #[must_use]
-    pub fn is_inside(&self, circle: &Circle) -> bool {
-        match (&self.circle, circle) {
-            (Circle::Smallest, Circle::Smallest) => true,
-            (Circle::Through(a), Circle::Through(b)) => a.triangle == b.triangle,
-            _ => false,
-        }
-    }
-
     /// May the disk meet a rectangle between two corners relative to p, in the frame of a direction, off by `off` at most? False only if
     /// they are certainly apart.
     ///

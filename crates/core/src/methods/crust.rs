@@ -6,13 +6,13 @@
 //! that the smallest candidate meets.
 
 use super::one_step_crust;
-use super::visit::{Part, TooLong, Visit};
+use super::visit::{TooLong, Visit};
 use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, rows, select, sort};
 use crate::error::Result;
 use crate::exact::angle::Angle;
 use crate::exact::filter::{self, UNDERFLOW};
-use crate::exact::pencil::{Circle, Disk, Pencil, Vertex};
+use crate::exact::pencil::{Circle, Pencil, Vertex};
 use crate::exact::sign::{self, Form, Number};
 use crate::parts::{GRAIN, in_parts};
 use crate::point::{Point, cross, dot, sub};
@@ -90,22 +90,15 @@ pub(crate) fn find_disk(delaunay: &Delaunay, edge: Edge, visit: &mut Visit<'_>) 
         let corners = [p, q, apex?].map(|vertex| delaunay.point(vertex));
         is_above_45(corners).then_some(corners)
     });
-    if let Some(corners) = own {
-        let pencil = Pencil::new(delaunay.point(edge.p), delaunay.point(edge.q));
-        let circle = Circle::Through(pencil.vertex(corners));
-        let disk = pencil.disk(circle);
-        if is_in_cells(delaunay, edge, &pencil, &disk) {
-            return Ok(Verdict::In(circle));
-        }
-        return search(delaunay, edge, &pencil, Start::From(disk), visit);
-    }
-    if smallest_disk_is_in_cells(delaunay, edge) {
+    if own.is_none() && smallest_disk_is_in_cells(delaunay, edge) {
         return Ok(Verdict::In(Circle::Smallest));
     }
     let pencil = Pencil::new(delaunay.point(edge.p), delaunay.point(edge.q));
-    match visit.find(delaunay, edge, &pencil, &pencil.disk(Circle::Smallest))? {
-        None => Ok(Verdict::In(Circle::Smallest)),
-        Some(vertex) => search(delaunay, edge, &pencil, Start::Found(vertex), visit),
+    let through = |corners| Circle::Through(pencil.vertex(corners));
+    let circle = own.map_or(Circle::Smallest, through);
+    match visit.find(delaunay, edge, &pencil, &pencil.disk(circle))? {
+        None => Ok(Verdict::In(circle)),
+        Some(vertex) => search(delaunay, edge, &pencil, vertex, visit),
     }
 }
 
@@ -116,55 +109,31 @@ fn is_above_45([p, q, apex]: [Point; 3]) -> bool {
     angle.dot < angle.cross
 }
 
-/// Does `disk` certainly lie in the Voronoi cells of p and q? Then no Voronoi vertex is inside.
-fn is_in_cells(delaunay: &Delaunay, edge: Edge, pencil: &Pencil, disk: &Disk) -> bool {
-    [[edge.p, edge.q], [edge.q, edge.p]].into_iter().all(|[s, end]| {
-        let part = Part::new(disk, pencil, delaunay.point(s), Some(delaunay.point(end)));
-        let mut others = delaunay.star(s).neighbors.iter().filter(|&&neighbor| neighbor != end);
-        others.all(|&neighbor| !part.may_reach(delaunay.point(neighbor)))
-    })
-}
-
-/// What is known when the full search starts.
-enum Start {
-    /// The disk of one of the edge's own vertices.
-    From(Disk),
-    /// A Voronoi vertex in the smallest disk.
-    Found(Vertex),
-}
-
-/// The search in full.
+/// The search in full, for which one Voronoi vertex is known that is in the smallest disk, or in that of one of the edge's own.
 fn search(
     delaunay: &Delaunay,
     edge: Edge,
     pencil: &Pencil,
-    start: Start,
+    mut found: Vertex,
     visit: &mut Visit<'_>,
 ) -> Outcome {
-    let (mut disk, mut found) = match start {
-        Start::From(disk) => (Some(disk), None),
-        Start::Found(vertex) => (None, Some(vertex)),
-    };
     // The angles at the edge's own apexes are acute, so each center is on the side of its triangle.
     let vertex = |corners: [u32; 3]| pencil.vertex(corners.map(|vertex| delaunay.point(vertex)));
     let mut high = edge.left.map(|apex| vertex([edge.p, edge.q, apex]));
     let mut low = edge.right.map(|apex| vertex([edge.q, edge.p, apex]));
     loop {
-        match found.map(|vertex| pencil.side(&vertex)) {
-            None => {}
-            Some(Greater) => high = found,
-            Some(Less) => low = found,
+        match pencil.side(&found) {
+            Greater => high = Some(found),
+            Less => low = Some(found),
             // Between p and q, inside all disks.
-            Some(Equal) => return Ok(Verdict::Out([found, None])),
+            Equal => return Ok(Verdict::Out([Some(found), None])),
         }
         let Some(circle) = pencil.smallest_between(low, high) else {
             return Ok(Verdict::Out([low, high]));
         };
-        let known = disk.take().filter(|disk| disk.is_inside(&circle));
-        let known = known.unwrap_or_else(|| pencil.disk(circle));
-        found = visit.find(delaunay, edge, pencil, &known)?;
-        if found.is_none() {
-            return Ok(Verdict::In(circle));
+        match visit.find(delaunay, edge, pencil, &pencil.disk(circle))? {
+            None => return Ok(Verdict::In(circle)),
+            Some(vertex) => found = vertex,
         }
     }
 }

@@ -157,7 +157,7 @@ impl<'a> Visit<'a> {
 }
 
 /// The part of a disk that can be in the cell of `site`: all of it, or in the cells of p and q the nearer half.
-pub(super) struct Part<'a> {
+struct Part<'a> {
     disk: &'a Disk,
     site: Point,
     /// The center relative to the site.
@@ -195,7 +195,7 @@ struct Half {
 
 impl<'a> Part<'a> {
     /// The part of `disk` in the cell of `site`; `other` is the other end of the edge, if `site` is one.
-    pub(super) fn new(disk: &'a Disk, pencil: &Pencil, site: Point, other: Option<Point>) -> Self {
+    fn new(disk: &'a Disk, pencil: &Pencil, site: Point, other: Option<Point>) -> Self {
         let center = sub(disk.center, sub(site, pencil.p));
         let size = center[0].abs() + center[1].abs() + disk.radius;
         let half = other.map(|other| {
@@ -231,7 +231,7 @@ impl<'a> Part<'a> {
 
     /// Can a point of this part be nearer to `neighbor` than to the site? False only if certainly none is.
     #[inline]
-    pub(super) fn may_reach(&self, neighbor: Point) -> bool {
+    fn may_reach(&self, neighbor: Point) -> bool {
         let g = sub(neighbor, self.site);
         let span = g[0].abs() + g[1].abs();
         let far = dot(g, g);
