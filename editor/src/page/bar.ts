@@ -179,7 +179,7 @@ function place(app: App): void {
   const [x, y] = (app.stage.cursor ??= [app.view.x, app.view.y]);
   const at = { x, y, left: 0, top: 0, shift: false };
   const tool = app.tool.name === "select" ? app.tools[0]! : app.tools.find((each) => each.name === "draw")!;
-  tool.down(app, at);
-  tool.up(app, at);
+  tool.down?.(app, at);
+  tool.up?.(app, at);
 }
 

@@ -17,6 +17,8 @@ const NOTCH = 1.0015;
 export class Pointer {
   private readonly down = new Map<number, { left: number; top: number }>();
   private active: Tool | null = null;
+  /** Where the next pull of the active tool is from. */
+  private last: Place | null = null;
   private spread = 0;
 
   constructor(
@@ -53,13 +55,14 @@ export class Pointer {
       return;
     }
     this.active = event.button === 0 ? this.surface.tool : this.surface.panner;
-    this.active.down(this.surface, at);
+    this.active.down?.(this.surface, at);
+    this.last = at;
   }
 
   private pulled(event: PointerEvent): void {
     const at = this.place(event);
     if (this.down.size > 1 && this.down.has(event.pointerId)) return this.pinched(event.pointerId, at);
-    if (this.active) this.active.move(this.surface, at);
+    if (this.active && this.last) this.last = this.active.pull(this.surface, this.last, at);
     else this.surface.hovered(at);
   }
 
@@ -84,8 +87,9 @@ export class Pointer {
   }
 
   private stop(at: Place): void {
-    this.active?.up(this.surface, at);
+    this.active?.up?.(this.surface, at);
     this.active = null;
+    this.last = null;
   }
 
   private wheel(event: WheelEvent): void {

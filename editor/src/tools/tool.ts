@@ -35,7 +35,8 @@ export interface Tool {
   readonly says: string;
   readonly icon: string;
   readonly cursor: string;
-  down(host: Host, at: Place): void;
-  move(host: Host, at: Place): void;
-  up(host: Host, at: Place): void;
+  down?(host: Host, at: Place): void;
+  /** Pulls from a place to the next one; gives the place that the next pull is from. */
+  pull(host: Host, from: Place, at: Place): Place;
+  up?(host: Host, at: Place): void;
 }

@@ -11,20 +11,10 @@ function hit(host: Host, at: Place): number | null {
   return nearest(host.cloud, at.x, at.y, host.reach * host.pixel);
 }
 
-/** Dragging the chosen points, as one step of the history. */
-class Drag {
-  private last: Place;
-  private started = false;
-
-  constructor(at: Place) {
-    this.last = at;
-  }
-
-  move(host: Host, at: Place): void {
-    host.edit(moved(host.cloud, host.chosen, at.x - this.last.x, at.y - this.last.y), this.started);
-    this.started = true;
-    this.last = at;
-  }
+/** Moves the chosen points; with `again` as the same step of the history. */
+function drag(host: Host, from: Place, at: Place, again: boolean): Place {
+  host.edit(moved(host.cloud, host.chosen, at.x - from.x, at.y - from.y), again);
+  return at;
 }
 
 class Select implements Tool {
@@ -34,8 +24,9 @@ class Select implements Tool {
   readonly says = "Drag a point, or pull a box around several and drag those. Shift adds to the selection.";
   readonly icon = "M5 3l14 8-6 2-2 6z";
   readonly cursor = "default";
-  private drag: Drag | null = null;
+  /** Where a box was begun; null while points are dragged. */
   private corner: Place | null = null;
+  private again = false;
 
   down(host: Host, at: Place): void {
     const row = hit(host, at);
@@ -46,12 +37,17 @@ class Select implements Tool {
     }
     if (at.shift) host.choose(new Set([...host.chosen, row]));
     else if (!host.chosen.has(row)) host.choose(new Set([row]));
-    this.drag = new Drag(at);
+    this.again = false;
   }
 
-  move(host: Host, at: Place): void {
-    if (this.drag) this.drag.move(host, at);
-    else if (this.corner) host.rubber(this.box(this.corner, at));
+  pull(host: Host, from: Place, at: Place): Place {
+    if (this.corner) {
+      host.rubber(this.box(this.corner, at));
+      return at;
+    }
+    const again = this.again;
+    this.again = true;
+    return drag(host, from, at, again);
   }
 
   up(host: Host, at: Place): void {
@@ -60,7 +56,6 @@ class Select implements Tool {
       host.choose(at.shift ? new Set([...host.chosen, ...inside]) : inside);
     }
     host.rubber(null);
-    this.drag = null;
     this.corner = null;
   }
 
@@ -76,26 +71,18 @@ class Draw implements Tool {
   readonly says = "Click to add a point; pull to place it.";
   readonly icon = "M12 5v14M5 12h14";
   readonly cursor = "crosshair";
-  private drag: Drag | null = null;
 
   down(host: Host, at: Place): void {
     host.edit(appended(host.cloud, [at.x, at.y]));
     host.choose(new Set([host.cloud.rows.length - 1]));
-    this.drag = new Drag(at);
   }
 
-  move(host: Host, at: Place): void {
-    if (this.drag) host.edit(moved(host.cloud, host.chosen, at.x - this.atLast(host)[0], at.y - this.atLast(host)[1]), true);
+  pull(host: Host, from: Place, at: Place): Place {
+    return drag(host, from, at, true);
   }
 
   up(host: Host): void {
-    this.drag = null;
     host.choose(new Set());
-  }
-
-  private atLast(host: Host): [number, number] {
-    const k = host.cloud.xy.length - 2;
-    return [host.cloud.xy[k]!, host.cloud.xy[k + 1]!];
   }
 }
 
@@ -106,28 +93,20 @@ class Brush implements Tool {
   readonly says = "Pull a stroke: it is sampled as it is drawn.";
   readonly icon = "M4 18c4 0 3-6 8-6s4-6 8-6";
   readonly cursor = "crosshair";
-  private last: Place | null = null;
 
   down(host: Host, at: Place): void {
     host.edit(appended(host.cloud, [at.x, at.y]));
-    this.last = at;
   }
 
-  move(host: Host, at: Place): void {
-    if (!this.last) return;
-    const length = Math.hypot(at.left - this.last.left, at.top - this.last.top);
+  pull(host: Host, from: Place, at: Place): Place {
+    const length = Math.hypot(at.left - from.left, at.top - from.top);
     const count = Math.floor(length / STEP);
-    const from = this.last;
+    if (!count) return from;
     const added = Array.from({ length: count }, (_, k) => ((k + 1) * STEP) / length).flatMap((t) => [from.x + t * (at.x - from.x), from.y + t * (at.y - from.y)]);
-    if (!count) return;
     host.edit(appended(host.cloud, added), true);
     const t = (count * STEP) / length;
     const between = (a: number, b: number): number => a + t * (b - a);
-    this.last = { ...at, x: between(from.x, at.x), y: between(from.y, at.y), left: between(from.left, at.left), top: between(from.top, at.top) };
-  }
-
-  up(): void {
-    this.last = null;
+    return { ...at, x: between(from.x, at.x), y: between(from.y, at.y), left: between(from.left, at.left), top: between(from.top, at.top) };
   }
 }
 
@@ -138,27 +117,21 @@ class Erase implements Tool {
   readonly says = "Pull over points to delete them.";
   readonly icon = "M8 19h11M5 14l8-9 6 5-8 9H8z";
   readonly cursor = "cell";
-  private last: Place | null = null;
   private again = false;
 
   down(host: Host, at: Place): void {
-    this.last = at;
     this.again = false;
-    this.move(host, at);
+    this.pull(host, at, at);
   }
 
-  move(host: Host, at: Place): void {
-    if (!this.last) return;
-    const touched = along(host.cloud, this.last, at, ERASER * host.pixel);
-    this.last = at;
-    if (!touched.size) return;
-    host.choose(new Set());
-    host.edit(without(host.cloud, touched), this.again);
-    this.again = true;
-  }
-
-  up(): void {
-    this.last = null;
+  pull(host: Host, from: Place, at: Place): Place {
+    const touched = along(host.cloud, from, at, ERASER * host.pixel);
+    if (touched.size) {
+      host.choose(new Set());
+      host.edit(without(host.cloud, touched), this.again);
+      this.again = true;
+    }
+    return at;
   }
 }
 
@@ -169,19 +142,10 @@ class Pan implements Tool {
   readonly says = "Pull the picture; the wheel or two fingers zoom.";
   readonly icon = "M12 3v18M3 12h18M12 3l-3 3M12 3l3 3M12 21l-3-3M12 21l3-3M3 12l3-3M3 12l3 3M21 12l-3-3M21 12l-3 3";
   readonly cursor = "grab";
-  private last: Place | null = null;
 
-  down(_host: Host, at: Place): void {
-    this.last = at;
-  }
-
-  move(host: Host, at: Place): void {
-    if (this.last) host.pan(at.left - this.last.left, at.top - this.last.top);
-    if (this.last) this.last = at;
-  }
-
-  up(): void {
-    this.last = null;
+  pull(host: Host, from: Place, at: Place): Place {
+    host.pan(at.left - from.left, at.top - from.top);
+    return at;
   }
 }
 
