@@ -12,56 +12,90 @@ from sys import modules
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+# For type checkers, who take `as` for a promise that the name is public here.
+# isort: off
 if TYPE_CHECKING:
-    from crustline import distributed, shapes, theory
-    from crustline._core import __version__
-    from crustline.center_line import center_line
-    from crustline.certify import Certificate, certify
-    from crustline.connection import Connection, connection
-    from crustline.curves import Curve, Curves, Polygon, trace
-    from crustline.delaunay import Delaunay
-    from crustline.denoise import Denoised, denoise
-    from crustline.errors import CrustlineError, FormatError, InputError, MissingExtraError
-    from crustline.formats import read, read_curves, write
-    from crustline.interpolant import Interpolant, local_feature_size
-    from crustline.medial_axis import MedialAxis, medial_axis
-    from crustline.merge import Merged, merge
-    from crustline.methods import (
-        METHODS,
-        a_shape,
-        alpha_shape,
-        beta_skeleton,
-        by_group,
-        close_gaps,
-        compatible_crust,
-        conservative_crust,
-        crawl,
-        crossing_angle_graph,
-        crust,
-        gabriel,
-        gamma_graph,
-        gathan,
-        hnn_crust,
-        in_columns,
-        minimum_spanning_tree,
-        nn_crust,
-        one_step_crust,
-        peel,
-        rcgh,
-        relative_neighborhood,
-        sig_delaunay,
+    from crustline import distributed as distributed, shapes as shapes, theory as theory
+    from crustline._core import __version__ as __version__
+    from crustline.center_line import center_line as center_line
+    from crustline.certify import Certificate as Certificate, certify as certify
+    from crustline.connection import Connection as Connection, connection as connection
+    from crustline.curves import (
+        Curve as Curve,
+        Curves as Curves,
+        Polygon as Polygon,
+        trace as trace,
     )
-    from crustline.methods.connect import connect
-    from crustline.points import Points
-    from crustline.projection import project
-    from crustline.reconstruction import Reconstruction, reconstruct
-    from crustline.shapes.ratio import is_r_sample, sampling_ratio
-    from crustline.shapes.sampling import Sample, r_sample, sample_for_error
-    from crustline.slices import Plane, Slice, Slices, section, slices
-    from crustline.smooth import Spline, Splines, smooth
-    from crustline.stability import beta_interval, beta_of, max_edge_interval
-    from crustline.theory import guaranteed_r
-    from crustline.thinning import thin
+    from crustline.delaunay import Delaunay as Delaunay
+    from crustline.denoise import Denoised as Denoised, denoise as denoise
+    from crustline.errors import (
+        CrustlineError as CrustlineError,
+        FormatError as FormatError,
+        InputError as InputError,
+        MissingExtraError as MissingExtraError,
+    )
+    from crustline.formats import read as read, read_curves as read_curves, write as write
+    from crustline.interpolant import (
+        Interpolant as Interpolant,
+        local_feature_size as local_feature_size,
+    )
+    from crustline.medial_axis import MedialAxis as MedialAxis, medial_axis as medial_axis
+    from crustline.merge import Merged as Merged, merge as merge
+    from crustline.methods import (
+        METHODS as METHODS,
+        a_shape as a_shape,
+        alpha_shape as alpha_shape,
+        beta_skeleton as beta_skeleton,
+        by_group as by_group,
+        close_gaps as close_gaps,
+        compatible_crust as compatible_crust,
+        conservative_crust as conservative_crust,
+        crawl as crawl,
+        crossing_angle_graph as crossing_angle_graph,
+        crust as crust,
+        gabriel as gabriel,
+        gamma_graph as gamma_graph,
+        gathan as gathan,
+        hnn_crust as hnn_crust,
+        in_columns as in_columns,
+        minimum_spanning_tree as minimum_spanning_tree,
+        nn_crust as nn_crust,
+        one_step_crust as one_step_crust,
+        peel as peel,
+        rcgh as rcgh,
+        relative_neighborhood as relative_neighborhood,
+        sig_delaunay as sig_delaunay,
+    )
+    from crustline.methods.connect import connect as connect
+    from crustline.points import Points as Points
+    from crustline.projection import project as project
+    from crustline.reconstruction import (
+        Reconstruction as Reconstruction,
+        reconstruct as reconstruct,
+    )
+    from crustline.shapes.ratio import is_r_sample as is_r_sample, sampling_ratio as sampling_ratio
+    from crustline.shapes.sampling import (
+        Sample as Sample,
+        r_sample as r_sample,
+        sample_for_error as sample_for_error,
+    )
+    from crustline.slices import (
+        Plane as Plane,
+        Slice as Slice,
+        Slices as Slices,
+        section as section,
+        slices as slices,
+    )
+    from crustline.smooth import Spline as Spline, Splines as Splines, smooth as smooth
+    from crustline.stability import (
+        beta_interval as beta_interval,
+        beta_of as beta_of,
+        max_edge_interval as max_edge_interval,
+    )
+    from crustline.theory import guaranteed_r as guaranteed_r
+    from crustline.thinning import thin as thin
+
+# isort: on
 
 #: Where the public names are; a test holds this against what type checkers are told above.
 _NAMES = {
@@ -96,13 +130,15 @@ _NAMES = {
     "thinning": "thin",
 }
 _HOMES = {name: f"crustline.{module}" for module, names in _NAMES.items() for name in names.split()}
+_MODULES = ("distributed", "shapes", "theory")
+__all__ = sorted([*_HOMES, *_MODULES])
 
 
 class _Package(ModuleType):
     """Imports a public name's module when the name is first asked for, so that `import` is fast."""
 
     def __getattr__(self, name: str) -> Any:
-        if name in ("distributed", "shapes", "theory"):
+        if name in _MODULES:
             return import_module(f"crustline.{name}")
         if name not in _HOMES:
             raise AttributeError(f"module 'crustline' has no attribute {name!r}")
@@ -125,81 +161,3 @@ class _Package(ModuleType):
 
 
 modules[__name__].__class__ = _Package
-
-__all__ = [
-    "METHODS",
-    "Certificate",
-    "Connection",
-    "CrustlineError",
-    "Curve",
-    "Curves",
-    "Delaunay",
-    "Denoised",
-    "FormatError",
-    "InputError",
-    "Interpolant",
-    "MedialAxis",
-    "Merged",
-    "MissingExtraError",
-    "Plane",
-    "Points",
-    "Polygon",
-    "Reconstruction",
-    "Sample",
-    "Slice",
-    "Slices",
-    "Spline",
-    "Splines",
-    "__version__",
-    "a_shape",
-    "alpha_shape",
-    "beta_interval",
-    "beta_of",
-    "beta_skeleton",
-    "by_group",
-    "center_line",
-    "certify",
-    "close_gaps",
-    "compatible_crust",
-    "connect",
-    "connection",
-    "conservative_crust",
-    "crawl",
-    "crossing_angle_graph",
-    "crust",
-    "denoise",
-    "distributed",
-    "gabriel",
-    "gamma_graph",
-    "gathan",
-    "guaranteed_r",
-    "hnn_crust",
-    "in_columns",
-    "is_r_sample",
-    "local_feature_size",
-    "max_edge_interval",
-    "medial_axis",
-    "merge",
-    "minimum_spanning_tree",
-    "nn_crust",
-    "one_step_crust",
-    "peel",
-    "project",
-    "r_sample",
-    "rcgh",
-    "read",
-    "read_curves",
-    "reconstruct",
-    "relative_neighborhood",
-    "sample_for_error",
-    "sampling_ratio",
-    "section",
-    "shapes",
-    "sig_delaunay",
-    "slices",
-    "smooth",
-    "theory",
-    "thin",
-    "trace",
-    "write",
-]

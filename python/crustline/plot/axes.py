@@ -6,8 +6,9 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from crustline.arrays import FloatArray
+from crustline.arrays import FloatArray, as_points
 from crustline.errors import require
 from crustline.path import CLOSE, LINE, MOVE, Path
 from crustline.plot.crowd import thinned
@@ -23,8 +24,9 @@ BLUE, VERMILLION, PURPLE = "#0072B2", "#D55E00", "#CC79A7"
 CHUNK = 10_000
 
 
-def axes(ax: Axes | None, xy: FloatArray) -> Axes:
-    """Return the Axes given, or new ones, of equal aspect, that show at least the points `xy`."""
+def axes(ax: Axes | None, points: ArrayLike) -> tuple[Axes, FloatArray]:
+    """Return the Axes given, or new ones, of equal aspect, that show at least points, and those."""
+    xy = as_points(points)
     require("plot", "matplotlib")
     if ax is None:
         ax = _new_axes(xy)
@@ -33,7 +35,7 @@ def axes(ax: Axes | None, xy: FloatArray) -> Axes:
     if len(xy):
         ax.update_datalim([xy.min(axis=0), xy.max(axis=0)])
         ax.autoscale_view()
-    return ax
+    return ax, xy
 
 
 def _new_axes(xy: FloatArray) -> Axes:

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crustline.arrays import as_points
 from crustline.plot.axes import (
     BLUE,
     VERMILLION,
@@ -53,8 +52,7 @@ def plot_certificate(
     >>> points = [(0, 0), (1, 0), (1, 1), (0, 1)]
     >>> ax = plot_certificate(certify(points, crust(points)))
     """
-    xy = as_points(certificate.points)
-    ax = axes(ax, xy)
+    ax, xy = axes(ax, certificate.points)
     edges = np.asarray(certificate.edges).reshape(-1, 2)
     weak = np.zeros(len(edges), bool)
     weak[np.asarray(certificate.weak, np.int64)] = True

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crustline.arrays import as_points
 from crustline.plot.axes import BLUE, GRAY, ORANGE, VERMILLION, axes, draw_segments, mark
 from crustline.plot.points import plot_points
 
@@ -45,8 +44,7 @@ def plot_connection(connection: Connection, ax: Axes | None = None, *, points: b
     >>> from crustline import connection
     >>> ax = plot_connection(connection([(0, 0), (1, 0), (1, 1), (0, 1)]))
     """
-    xy = as_points(connection.points)
-    ax = axes(ax, xy)
+    ax, xy = axes(ax, connection.points)
     draw_segments(ax, xy[connection.left_out], GRAY, 0.8, label="of the crust, left out")
     above = np.inf
     for least, color, width, label in STEPS:

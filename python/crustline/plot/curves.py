@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crustline.arrays import as_points
 from crustline.path import Path
 from crustline.plot.axes import (
     BLUE,
@@ -60,8 +59,7 @@ def plot_edges(
     --------
     >>> ax = plot_edges([(0, 0), (1, 0), (1, 1)], [(0, 1), (1, 2)])
     """
-    xy = as_points(points)
-    ax = axes(ax, xy)
+    ax, xy = axes(ax, points)
     segments = xy[np.asarray(edges, np.int64).reshape(-1, 2)]
     return draw_segments(ax, segments, color, width, label=label, zorder=3)
 
@@ -91,8 +89,7 @@ def plot_curves(
     >>> from crustline import reconstruct
     >>> ax = plot_curves(reconstruct([(0, 0), (1, 0), (1, 1), (0, 1)]))
     """
-    xy = as_points(curves.points)
-    ax = axes(ax, xy)
+    ax, xy = axes(ax, curves.points)
     for closed, color, label in ((True, BLUE, "ring"), (False, VERMILLION, "polyline")):
         lines = (each for each in curves.features() if each.kind == "line")
         path = Path.joined(Path.of_feature(each, xy) for each in lines if each.closed == closed)

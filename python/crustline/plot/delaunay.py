@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crustline.arrays import as_points
 from crustline.medial_axis import medial_axis
 from crustline.plot.axes import (
     GRAY,
@@ -55,8 +54,7 @@ def plot_delaunay(
     >>> from crustline import Delaunay
     >>> ax = plot_delaunay(Delaunay([(0, 0), (1, 0), (1, 1)]))
     """
-    xy = as_points(delaunay.points)
-    ax = axes(ax, xy)
+    ax, xy = axes(ax, delaunay.points)
     draw_segments(ax, xy[delaunay.edges], color, 0.5, label="Delaunay", zorder=1)
     if points:
         plot_points(xy, ax)
@@ -92,8 +90,7 @@ def plot_voronoi(
     >>> from crustline import Delaunay
     >>> ax = plot_voronoi(Delaunay([(0, 0), (1, 0), (1, 1)]))
     """
-    xy = as_points(delaunay.points)
-    ax = axes(ax, xy)
+    ax, xy = axes(ax, delaunay.points)
     diagram = medial_axis(delaunay, np.empty((0, 2), np.int64))
     draw_segments(ax, diagram.clipped(box_around(xy)), color, 0.7, label="Voronoi")
     return plot_points(xy, ax) if points else ax

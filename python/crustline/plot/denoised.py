@@ -43,8 +43,7 @@ def plot_denoised(denoised: Denoised, ax: Axes | None = None, *, points: bool = 
     >>> from crustline import denoise
     >>> ax = plot_denoised(denoise([(k, k % 2 / 3) for k in range(40)]))
     """
-    xy = denoised.points.xy
-    ax = axes(ax, xy)
+    ax, xy = axes(ax, denoised.points)
     if points:
         plot_points(xy, ax, color=GRAY)
     if denoised.crs is None:

@@ -51,7 +51,7 @@ def plot_medial_axis(
     >>> ax = plot_medial_axis(medial_axis([(0, 0), (2, 0), (2, 1), (0, 1)]))
     """
     core = _core(medial_axis.vertices)
-    ax = axes(ax, core if ax is None else core[:0])
+    ax, _ = axes(ax, core if ax is None else core[:0])
     seen = ax.dataLim.get_points()
     box = box_around(seen if np.isfinite(seen).all() else core)
     inner = medial_axis.clipped(box, inner=True)

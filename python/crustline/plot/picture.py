@@ -93,7 +93,7 @@ def picture(
     made = as_reconstruction(points)
     with rc_context():
         rcdefaults()
-        ax = axes(None, made.points.xy)
+        ax, _ = axes(None, made.points)
         for name, draw in LAYERS.items():
             if name in show:
                 draw(made, ax)

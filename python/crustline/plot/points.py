@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crustline.arrays import FloatArray, IntArray, as_points
+from crustline.arrays import FloatArray, IntArray
 from crustline.plot.axes import (
     BLACK,
     GRAY,
@@ -68,8 +68,7 @@ def plot_points(
     >>> len(ax.lines)
     1
     """
-    xy = as_points(points)
-    ax = axes(ax, xy)
+    ax, xy = axes(ax, points)
     diameter = dot_size(len(xy)) if size is None else size
     # A crowd of dots would hide the curve through them.
     order = 4 if len(xy) < CROWD else 1.5
@@ -100,8 +99,7 @@ def plot_indices(points: ArrayLike, ax: Axes | None = None, *, color: str = BLAC
     >>> [text.get_text() for text in plot_indices([(0, 0), (1, 0)]).texts]
     ['0', '1']
     """
-    xy = as_points(points)
-    ax = axes(ax, xy)
+    ax, xy = axes(ax, points)
     rows = _legible(xy)
     for row in rows.tolist():
         ax.annotate(
@@ -153,8 +151,7 @@ def plot_local_feature_size(points: ArrayLike, sizes: ArrayLike, ax: Axes | None
     --------
     >>> ax = plot_local_feature_size([(0, 0), (1, 0)], [0.1, 10.0])
     """
-    xy, lfs = as_points(points), np.asarray(sizes, np.float64)
-    ax = axes(ax, xy)
+    (ax, xy), lfs = axes(ax, points), np.asarray(sizes, np.float64)
     from matplotlib.colors import LogNorm
 
     diameter = 1.6 * dot_size(len(xy))
