@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
+from PIL import Image, ImageDraw
 
 import crustline as cl
 from crustline.images import Axes, boundary_points, edge_points, stroke_points
@@ -138,6 +139,28 @@ def test_middle_of_a_stroke_of_a_color(width):
     points = stroke_points(image, color=RED)
     assert np.abs(far_from_circle(points, *CIRCLE)).max() < 0.12
     assert_one_ring(points)
+
+
+def drawn(corners, width: int, joint: str | None = None):
+    """A line through corners (column, row), drawn in black."""
+    canvas = Image.new("L", (4 * 300, 4 * 200), 255)
+    line = [(4 * x, 4 * y) for x, y in corners]
+    ImageDraw.Draw(canvas).line(line, fill=0, width=4 * width, joint=joint)
+    return np.asarray(canvas.resize((300, 200), Image.Resampling.BOX))
+
+
+@pytest.mark.parametrize("joint", [None, "curve"])
+@pytest.mark.parametrize("width", [2, 5, 9])
+@pytest.mark.parametrize("tilt", [0, 20, 45])
+def test_a_zigzag_with_sharp_corners_is_one_line(width, joint, tilt):
+    corners = [(30, 40 + tilt), (110, 150), (190, 40), (270, 150 - tilt)]
+    curves = cl.reconstruct(stroke_points(drawn(corners, width, joint)))
+    assert len(curves) == 1
+    assert curves.closed.tolist() == [False]
+    assert len(curves.isolated) == 0
+    ends = curves.points.xy[curves.endpoints]
+    for corner in (corners[0], corners[-1]):
+        assert np.hypot(*(ends - corner * np.array([1, -1])).T).min() < 1.5 * width + 1
 
 
 def test_ink_is_found_on_paper_with_shadows_and_grain():

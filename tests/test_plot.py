@@ -289,6 +289,27 @@ def test_a_crowd_is_drawn_once_on_each_spot() -> None:
         assert np.abs(near[rows] - points).max() < 2 * spot
 
 
+@pytest.mark.parametrize("suffix", [".svg", ".pdf"])
+def test_a_crowd_is_an_image_in_vector_formats(tmp_path, suffix) -> None:
+    points = np.random.default_rng(6).random((120_000, 2))
+    plot.picture(points, tmp_path / f"crowd{suffix}", show=["points"])
+    plot.picture(points[:1000], tmp_path / f"few{suffix}", show=["points"])
+    crowd, few = ((tmp_path / f"{name}{suffix}").read_bytes() for name in ("crowd", "few"))
+    assert len(crowd) < 2_000_000
+    mark = {".svg": b"<image", ".pdf": b"/Subtype /Image"}[suffix]
+    assert mark in crowd
+    assert mark not in few
+
+
+def test_too_many_dots_are_drawn_on_fewer_spots() -> None:
+    points = np.random.default_rng(6).random((2_000_000, 2))
+    kept = one_per_spot(points)
+    assert 1_000_000 < len(kept) < 1_800_000
+    # Of a picture of 1,000 pixels hardly one is lost that has a point.
+    pixels = [np.unique((each * 1000).astype(int) @ (1000, 1)) for each in (points, points[kept])]
+    assert len(pixels[1]) > 0.97 * len(pixels[0])
+
+
 def test_a_crowd_of_segments_keeps_one_of_a_kind() -> None:
     grid = np.random.default_rng(1).integers(0, 100, (200_000, 2, 2)).astype(float)
     path = thinned(Path_.through_all(grid.reshape(-1, 2), np.arange(0, 400_000, 2)))

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 import json
 import os
+import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -112,10 +116,12 @@ def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return home
 
 
-def run(home: Path, *words: str | Path, code: int = 0, command: str = "") -> str:
+def run(
+    home: Path, *words: str | Path, code: int = 0, command: str = "", at: Path | None = None
+) -> str:
     """Run a program of QGIS, and return what it says."""
     done = subprocess.run(
-        words, cwd=home, text=True, capture_output=True, timeout=300, check=False,
+        words, cwd=at or home, text=True, capture_output=True, timeout=300, check=False,
         env={  # nothing of the Python that runs this, which QGIS would take for its own
             "HOME": str(home), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8",
             "XDG_RUNTIME_DIR": str(home), "QT_QPA_PLATFORM": "offscreen",
@@ -206,6 +212,72 @@ def test_a_session_runs_every_algorithm(home, tmp_path):
         assert len(each["shares"]) > 2
     assert len(algorithms) == 4
     assert all(length > 100 and not without for _, length, without in algorithms)
+
+
+#: Draws layers over each other, as QGIS shows them: water, shores, fixes.
+RENDERING = """
+import sys
+from qgis.core import *
+from qgis.PyQt.QtCore import QSize
+from qgis.PyQt.QtGui import QColor
+application = QgsApplication([], True)
+application.initQgis()
+styles = {
+    "fixes": QgsMarkerSymbol.createSimple(
+        {"color": "#c2410c", "size": "1.3", "outline_style": "no"}
+    ),
+    "shores": QgsLineSymbol.createSimple({"color": "#1f5fa8", "width": "0.5"}),
+    "water": QgsFillSymbol.createSimple({"color": "#d6e4f2", "outline_style": "no"}),
+}
+layers = [QgsVectorLayer(f"{name}.gpkg", name) for name in styles]
+for layer, symbol in zip(layers, styles.values()):
+    assert layer.isValid()
+    layer.renderer().setSymbol(symbol)
+settings = QgsMapSettings()
+settings.setLayers(layers)
+settings.setDestinationCrs(layers[0].crs())
+settings.setOutputSize(QSize(800, 640))
+settings.setOutputDpi(130)
+settings.setBackgroundColor(QColor("white"))
+extent = layers[0].extent()
+extent.scale(1.08)
+settings.setExtent(extent)
+job = QgsMapRendererSequentialJob(settings)
+job.start()
+job.waitForFinished()
+job.renderedImage().save(sys.argv[1])
+"""
+
+
+@needs_qgis
+def test_what_the_page_shows_is_what_happens(home, tmp_path, monkeypatch):
+    """Its picture is docs/tutorials/qgis.png: written anew where CRUSTLINE_PICTURES is set."""
+    pytest.importorskip("geopandas")
+    monkeypatch.chdir(tmp_path)
+    page = (ROOT / "docs/tutorials/qgis.md").read_text(encoding="utf-8")
+    names: dict[str, object] = {}
+    printed, compared = io.StringIO(), 0
+    for language, block in re.findall(r"```(\w*)\n(.*?)```", page, re.DOTALL):
+        if language == "python":
+            printed = io.StringIO()
+            with contextlib.redirect_stdout(printed):
+                exec(compile(block, "qgis.md", "exec"), names)
+        elif language == "sh":
+            run(home, PROCESS, *shlex.split(block)[1:], at=tmp_path)
+        else:
+            assert printed.getvalue().strip() == block.strip()
+            compared += 1
+    assert compared == 1
+    run(home, PYTHON, "-c", RENDERING, "map.png", at=tmp_path)
+    kept = ROOT / "docs/tutorials/qgis.png"
+    if os.environ.get("CRUSTLINE_PICTURES"):
+        shutil.copy("map.png", kept)
+    image = pytest.importorskip("PIL.Image")
+    ours, theirs = (
+        np.asarray(image.open(path).convert("RGB"), float) for path in ("map.png", kept)
+    )
+    assert ours.shape == theirs.shape
+    assert np.mean(np.abs(ours - theirs).max(axis=2) > 40) < 0.01  # but for smoothed edges
 
 
 @needs_qgis

@@ -14,6 +14,7 @@ from crustline.arrays import FloatArray, IntArray
 from crustline.errors import require
 from crustline.images.figure import as_color, membership
 from crustline.images.picture import Bands, Picture, as_picture, centers
+from crustline.images.skeleton import skeleton_of
 
 __all__ = ["stroke_points"]
 
@@ -65,16 +66,13 @@ def stroke_points(image: npt.ArrayLike, *, color: object = None) -> FloatArray:
     True
     """
     require("image", "skimage")
-    from scipy.ndimage import distance_transform_edt
-    from skimage.morphology import skeletonize
-
     picture = as_picture(image)
     shares = _ink(picture) if color is None else membership(picture, as_color(color))
-    inside = shares >= 0.5
-    rows, columns = np.nonzero(skeletonize(inside))
+    skeleton, depth = skeleton_of(shares >= 0.5)
+    rows, columns = np.nonzero(skeleton)
     if not len(rows):
         return np.empty((0, 2))
-    half = float(np.median(distance_transform_edt(np.pad(inside, 1))[rows + 1, columns + 1]))
+    half = float(np.median(depth[rows, columns]))
     down, right = _to_middle(shares, rows, columns, half)
     return centers(rows + down, columns + right)
 

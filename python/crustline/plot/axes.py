@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from crustline.arrays import FloatArray, as_points
 from crustline.errors import require
 from crustline.path import CLOSE, LINE, MOVE, Path
-from crustline.plot.crowd import thinned
+from crustline.plot.crowd import is_crowd, thinned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -106,6 +106,7 @@ def stroke(
         capstyle="round",
         joinstyle="round",
         zorder=zorder,
+        rasterized=is_crowd(path.vertices),
     )
     ax.add_collection(lines, autolim=False)
     if label:

@@ -7,20 +7,27 @@ import numpy as np
 from crustline.arrays import FloatArray, IntArray
 from crustline.path import CLOSE, LINE, MOVE, Path
 
-__all__ = ["CROWD", "one_per_spot", "thinned"]
+__all__ = ["CROWD", "is_crowd", "one_per_spot", "thinned"]
 
 #: So many dots or vertices are a crowd.
 CROWD = 100_000
 #: Spots along the longer side: a dozen to a dot of a printed page, so that one may look closer.
 SPOTS = 1 << 14
+#: So many dots on as many spots are drawn on fewer: more than one to a pixel still.
+TOO_MANY, FEWER_SPOTS = 1_000_000, 1 << 11
 
 
-def _spots(xy: FloatArray) -> IntArray:
-    """Return the number of the spot of each point."""
+def is_crowd(drawn: FloatArray) -> bool:
+    """Whether dots or vertices are so many that a vector format is given them as an image."""
+    return len(drawn) >= CROWD
+
+
+def _spots(xy: FloatArray, count: int = SPOTS) -> IntArray:
+    """Return the number of the spot of each point, of so many along the longer side."""
     low = xy.min(axis=0)
     extent = float((xy.max(axis=0) - low).max()) or 1.0
-    x, y = ((xy - low) * (SPOTS / extent)).astype(np.int64).T
-    return np.asarray(x * (SPOTS + 1) + y)
+    x, y = ((xy - low) * (count / extent)).astype(np.int64).T
+    return np.asarray(x * (count + 1) + y)
 
 
 def one_per_spot(xy: FloatArray, by: FloatArray | None = None) -> IntArray:
@@ -30,7 +37,11 @@ def one_per_spot(xy: FloatArray, by: FloatArray | None = None) -> IntArray:
     """
     if len(xy) < CROWD:
         return np.arange(len(xy))
-    spots = _spots(xy)
+    rows = _first_of(_spots(xy), by)
+    return rows if len(rows) < TOO_MANY else _first_of(_spots(xy, FEWER_SPOTS), by)
+
+
+def _first_of(spots: IntArray, by: FloatArray | None) -> IntArray:
     order = np.argsort(spots, kind="stable") if by is None else np.lexsort((by, spots))
     return np.sort(order[np.diff(spots[order], prepend=-1) > 0])
 

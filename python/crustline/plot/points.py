@@ -14,7 +14,7 @@ from crustline.plot.axes import (
     axes,
     dot_size,
 )
-from crustline.plot.crowd import one_per_spot
+from crustline.plot.crowd import is_crowd, one_per_spot
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -73,7 +73,8 @@ def plot_points(
     # A crowd of dots would hide the curve through them.
     order = 4 if len(xy) < CROWD else 1.5
     drawn = xy[one_per_spot(xy)]
-    ax.plot(*drawn.T, "o", color=color, markersize=diameter, markeredgewidth=0, zorder=order)
+    dots = ax.plot(*drawn.T, "o", color=color, markersize=diameter, markeredgewidth=0, zorder=order)
+    dots[0].set_rasterized(is_crowd(drawn))
     return plot_indices(xy, ax) if indices else ax
 
 
@@ -168,6 +169,7 @@ def plot_local_feature_size(points: ArrayLike, sizes: ArrayLike, ax: Axes | None
     dots = ax.scatter(
         x[known], y[known], area, lfs[known], norm=scale, cmap="viridis", linewidths=0, zorder=4.5
     )
+    dots.set_rasterized(is_crowd(xy))
     figure: Any = ax.get_figure(root=True)
     bar = figure.colorbar(dots, ax=ax, shrink=0.7)
     bar.set_label("local feature size", size=8)
