@@ -50,7 +50,8 @@ def _branches(skeleton: BoolArray) -> FloatArray:
     """Return how many branches leave each pixel: runs of the skeleton in the circle around it."""
     ring = [np.roll(skeleton, (-down, -right), (0, 1)) for down, right in _AROUND]
     starts = [here & ~before for before, here in zip([ring[-1], *ring[:-1]], ring, strict=True)]
-    return np.sum(starts, axis=0, dtype=np.float64)
+    branches: FloatArray = np.sum(starts, axis=0, dtype=np.float64)
+    return branches
 
 
 def _spur_from(
