@@ -13,7 +13,13 @@ SIZE = 10**6
 
 
 def after_crust() -> dict[str, float]:
-    """Return median seconds for curve samples by task, and the median ratio of the same turn.
+    """Return median seconds by task, and the median ratio of the same turn; noisy samples' last."""
+    noisy = of_samples("noisy curves")
+    return of_samples("curves") | {f"{task}, noisy": value for task, value in noisy.items()}
+
+
+def of_samples(distribution: str) -> dict[str, float]:
+    """Return the figures of one distribution.
 
     The crust is from the points; the rest from the triangulation and edges that it leaves.
     """
@@ -21,7 +27,7 @@ def after_crust() -> dict[str, float]:
         import crustline as cl
     except ImportError:
         return {}
-    samples = np.fromfile(point_file("curves", SIZE)).reshape(-1, 2)
+    samples = np.fromfile(point_file(distribution, SIZE)).reshape(-1, 2)
     turns = []
     for _ in range(TURNS):
         turn = {"crust": seconds(cl.crust, samples)}
@@ -42,4 +48,4 @@ def seconds(task: Callable[..., object], *arguments: object) -> float:
 
 if __name__ == "__main__":
     for task, value in after_crust().items():
-        print(f"{task}: {value:.3f}{'' if task == 'ratio' else ' s'}")
+        print(f"{task}: {value:.3f}{'' if task.startswith('ratio') else ' s'}")

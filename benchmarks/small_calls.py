@@ -1,23 +1,42 @@
-"""What a call with few points costs, so that a loop over thousands of groups is fine."""
+"""What calls with few points cost, and one call with many groups of few."""
 
 import timeit
 from collections.abc import Callable
 from statistics import median
+from time import perf_counter
 
 import numpy as np
 
-SIZES = (10, 1000)
+SIZES = (10, 100, 1000)
 LOOP_SECONDS = 0.2
+#: Groups, each of `OF` points, beside the same points in one set.
+GROUPS, OF, TURNS = 10_000, 100, 5
 
 
 def small_calls() -> dict[str, float]:
-    """Return the median seconds of one `crust`, by the number of points."""
+    """Return the median seconds of a `crust` by its number of points, and the ratio of groups."""
     try:
         from crustline import crust
     except ImportError:
         return {}
     rng = np.random.default_rng(0)
-    return {str(n): seconds_per_call(crust, rng.random((n, 2))) for n in SIZES}
+    found = {str(n): seconds_per_call(crust, rng.random((n, 2))) for n in SIZES}
+    return found | {"groups": groups_to_one_set(rng.random((GROUPS * OF, 2)))}
+
+
+def groups_to_one_set(points: np.ndarray) -> float:
+    """Return the median ratio of the time of a crust in each group to that of one of all."""
+    from crustline import by_group, crust
+
+    groups = np.repeat(np.arange(GROUPS), OF)
+    turns = []
+    for _ in range(TURNS):
+        start = perf_counter()
+        by_group(points, groups, crust)
+        middle = perf_counter()
+        crust(points)
+        turns.append((middle - start) / (perf_counter() - middle))
+    return median(turns)
 
 
 def seconds_per_call(call: Callable[[np.ndarray], object], points: np.ndarray) -> float:
@@ -27,5 +46,7 @@ def seconds_per_call(call: Callable[[np.ndarray], object], points: np.ndarray) -
 
 
 if __name__ == "__main__":
-    for size, seconds in small_calls().items():
-        print(f"crust of {size} points: {seconds * 1e6:.1f} µs")
+    for what, value in small_calls().items():
+        print(
+            f"{what}: {value:.2f}" if what == "groups" else f"{what} points: {value * 1e6:.1f} µs"
+        )

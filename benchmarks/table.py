@@ -11,6 +11,8 @@ from .rivals import CGAL_DELAUNAY, CONTENDERS, CRUST, DELAUNAY, OURS, Contender
 from .targets import MILLION, Target, targets
 
 DOCS = Path(__file__).parent.parent / "docs"
+#: Points whose crust caches hold.
+IN_CACHE = 10_000
 #: What is said of the run, not of the machine.
 OF_A_RUN = ("date", "load")
 
@@ -40,7 +42,7 @@ accident: there the number of edges of crustline's crust is held against the def
 all unit edges; one circle: its n sides; line: n − 1; all equal: none; all but one equal: one).
 """
 AFTER = """\
-What else the samples of curves have, a million of them on all cores: the crust from the points, and
+What else samples of curves have, a million of them on all cores: the crust from the points, and
 the rest from the triangulation and the edges that it leaves. The certificate uses the interpolant
 that the local feature size was measured on.
 """
@@ -52,7 +54,9 @@ reading and writing the files of the run is told apart.
 FLOOR = "What a million points cost at least, beside what crustline takes for them on one thread:\n"
 CACHE = """\
 Times the time of one CGAL triangulation in the same turn. In parentheses: what crustline's crust
-holds at its peak, its input included, against the last cache that the machine's table gives.
+holds at its peak, its input included, against the last cache that the machine's table gives. What
+waits for memory is counted as the part of the time for a point by which it is longer than at 10,000
+points, which caches hold; the depth of the division grows, too, so that it is less than that.
 """
 LOAD = """\
 The load is that of the minute before, in processes that want to run: where it is not small beside
@@ -203,7 +207,16 @@ def in_and_out_of_cache(results: Results, distribution: str) -> str:
         [ours.label, *(times_cgal(results, distribution, size, ours) for size, _ in found)]
         for ours in OURS
     )
-    return markdown([distribution, *heads], rows)
+    waits = ["waits for memory", *(waiting(results, crust) for _, crust in found)]
+    return markdown([distribution, *heads], [*rows, waits])
+
+
+def waiting(results: Results, crust: Result) -> str:
+    """Return by which part of it the time for a point is longer than at few of them."""
+    few = results.find(crust.distribution, IN_CACHE, CRUST)
+    if few is None or crust.n <= few.n:
+        return ""
+    return f"{max(0.0, 1 - few.seconds / few.n / (crust.seconds / crust.n)):.0%}"
 
 
 def held(result: Result) -> str:
@@ -267,7 +280,7 @@ def left_out(results: Results) -> Iterator[str]:
 
 def after_rows(after_crust: dict[str, float]) -> Iterator[list[str]]:
     for task, value in after_crust.items():
-        if task != "ratio":
+        if not task.startswith("ratio"):
             yield [f"`{task}`", seconds(value)]
 
 
