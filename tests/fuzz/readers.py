@@ -25,9 +25,10 @@ from typing import Any
 if __name__ == "__main__":  # run as a script, it finds its neighbors
     sys.path[:0] = [str(Path(__file__).parents[1]), str(Path(__file__).parents[2])]
 
-from crustline import CrustlineError, read
+from crustline import CrustlineError, read, slices
 from crustline.formats import FORMATS, layers, read_curves
 from crustline.shapes import bezier_path
+from fuzz import clouds
 from fuzz.seeds import KEYS, SHAPEFILE, seeds, shapefile
 from fuzz.watch import Watch
 
@@ -83,6 +84,8 @@ def readings_of(key: str) -> list[Callable[[bytes], Any]]:
         return [_svg]
     if key in SHAPEFILE:
         return [partial(_with_siblings, key)]
+    if key in clouds.KEYS:
+        return _in_space("laz" if key == "copc" else key)
     name = None if key == "packed" else key
     chosen: list[Callable[..., Any]] = [read]
     if name is None or FORMATS[name].can("read_curves"):
@@ -90,6 +93,17 @@ def readings_of(key: str) -> list[Callable[[bytes], Any]]:
     if name is not None and FORMATS[name].can("layers"):
         chosen.append(layers)
     return [partial(each, format=name) for each in chosen]
+
+
+def _in_space(name: str) -> list[Callable[[bytes], Any]]:
+    """Return what slices a cloud or mesh, and reads the points of a cloud."""
+    how = {"format": name} | ({} if name in ("stl", "obj") else {"thickness": 0.5, "fit": False})
+    chosen: list[Callable[..., Any]] = [partial(slices, planes=["z=0.3", "1,1,0=0.2"], **how)]
+    if name == "ply":  # with faces a mesh, which has no thickness
+        chosen.append(partial(slices, planes="z=0.3", format=name))
+    if FORMATS[name].can("read"):
+        chosen.append(partial(read, format=name))
+    return chosen
 
 
 def _svg(content: bytes) -> Any:

@@ -17,6 +17,7 @@ import numpy as np
 
 import crustline as cl
 from crustline import CrustlineError
+from fuzz import clouds
 
 
 def npy(array: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> bytes:
@@ -87,7 +88,7 @@ PLAIN: dict[str, list[bytes]] = {
 WRITTEN = ("gpkg", "fgb", "kml", "gpx", "parquet", "feather", "dxf")
 SHAPEFILE = ("shp", "shx", "dbf", "prj")
 #: All that `seeds` may have.
-KEYS = (*PLAIN, *WRITTEN, *SHAPEFILE, "excel")
+KEYS = (*PLAIN, *WRITTEN, *SHAPEFILE, "excel", *clouds.KEYS)
 
 
 def _things() -> list[cl.Points | cl.Curves]:
@@ -183,4 +184,5 @@ def seeds() -> dict[str, list[bytes]]:
         found["excel"] = [_workbook()]
     except ImportError:
         pass
+    found |= clouds.seeds()
     return {key: files for key, files in found.items() if files}
