@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from types import SimpleNamespace
 
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 
 import crustline as cl
+from crustline.cli import main
 from test_slices import command, polygons_of
 
 trimesh = pytest.importorskip("trimesh")
@@ -190,6 +192,18 @@ def test_what_the_command_refuses(arguments, words, tmp_path, capfd):
     assert (code, said.count("\n")) == (2, 1), said
     assert words in said
     assert not (tmp_path / "out.dxf").exists()
+
+
+def test_info_says_what_a_mesh_holds(tmp_path, capfd):
+    solid, _ = plate()
+    (tmp_path / "plate.stl").write_bytes(_exported(solid, "stl"))
+    with pytest.raises(SystemExit) as caught:
+        main(["info", str(tmp_path / "plate.stl")])
+    said = capfd.readouterr().out
+    assert not caught.value.code
+    assert re.search(r"closed +yes", said)
+    assert re.search(r"extent +0, 0, 0, 6, 4, 1\n", said)
+    assert "--slice z=0.5" in said
 
 
 @pytest.mark.parametrize(

@@ -15,6 +15,7 @@ from crustline.cli.source import Source, source_options
 if TYPE_CHECKING:
     from crustline.arrays import FloatArray
     from crustline.delaunay import Delaunay
+    from crustline.formats.source import Source as Bytes
     from crustline.points import Points
 
 
@@ -22,10 +23,11 @@ if TYPE_CHECKING:
 @source_options
 @click.option("--json", "as_json", is_flag=True, help="Print it as JSON.")
 def info(source: Source, as_json: bool) -> None:
-    """Say what a file of points holds, and how it was understood.
+    """Say what a file of points or a mesh holds, and how it was understood.
 
     INPUT is a file of points; - is standard input. Prints its format, what was found in its text,
-    the number of points, their extent, CRS, columns, duplicates and spacing.
+    the number of points, their extent, CRS, columns, duplicates and spacing; of a mesh its vertices
+    and triangles, its extent, whether it is closed, and how to cut it.
 
     \b
         crustline info goose.csv
@@ -34,16 +36,39 @@ def info(source: Source, as_json: bool) -> None:
     from crustline.formats.source import Source as Bytes
 
     opened = Bytes(source.name)
-    points = source.read(opened)
-    about: dict[str, Any] = {"file": opened.name, **opened.notes, **_about_points(points)}
-    if len(points):
-        about |= _about_spacing(Delaunay(points, threads=source.threads))
+    about = _about_mesh(opened, source)
+    if not about:
+        points = source.read(opened)
+        about = {"file": opened.name, **opened.notes, **_about_points(points)}
+        if len(points):
+            about |= _about_spacing(Delaunay(points, threads=source.threads))
     if as_json:
         click.echo(json.dumps(about))
         return
     width = max(map(len, about))
     for name, value in about.items():
         click.echo(f"{name.ljust(width)}  {_in_words(value)}")
+
+
+def _about_mesh(opened: Bytes, source: Source) -> dict[str, Any]:
+    """Return what is to be said of a file of a surface; nothing of one of points."""
+    from crustline.slices.body import mesh_of
+
+    if source.name == "-":  # read once
+        return {}
+    mesh = mesh_of(opened, source.format)
+    if mesh is None:
+        return {}
+    used = mesh.vertices[np.unique(mesh.triangles)]
+    low, high = used.min(axis=0), used.max(axis=0)
+    return {
+        "file": mesh.name,
+        "vertices": len(used),
+        "triangles": len(mesh.triangles),
+        "extent": [*low.tolist(), *high.tolist()],
+        "closed": "yes" if mesh.is_closed else "no",
+        "to cut it": f"crustline reconstruct {mesh.name} --slice z={(low[2] + high[2]) / 2:.6g}",
+    }
 
 
 def _about_points(points: Points) -> dict[str, Any]:

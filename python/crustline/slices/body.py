@@ -14,14 +14,13 @@ from crustline.formats import Source, stream
 from crustline.formats.catalog import able, format_of_source
 from crustline.formats.cloud import Chunk, chunks_of_array
 from crustline.formats.crs import normalize_crs
-from crustline.formats.format import Format
 from crustline.formats.mesh import sound
 from crustline.formats.reading import opened
 from crustline.points import Points, as_crs
 from crustline.slices.cloud import Cloud
 from crustline.slices.mesh import Mesh
 
-__all__ = ["as_body"]
+__all__ = ["as_body", "mesh_of"]
 
 
 def as_body(
@@ -70,10 +69,10 @@ def _of_file(
     path: Any, format: str | None, crs: str | None, options: dict[str, Any]
 ) -> Cloud | Mesh:
     source = opened(path)
-    chosen = _format_of(source, format)
-    triangles = chosen.mesh(source) if chosen.mesh else None
-    if triangles is not None:
-        return Mesh.of(source.name, *triangles, crs)
+    mesh = mesh_of(source, format, crs)
+    if mesh is not None:
+        return mesh
+    chosen = format_of_source(source, format)
     chosen.require()
     if chosen.cloud is None:
         return Cloud(source.name, lambda box: _streamed(source, chosen.name, options), crs)
@@ -82,13 +81,14 @@ def _of_file(
     return Cloud(source.name, lambda box: read(source, box, **settings), crs)
 
 
-def _format_of(source: Source, name: str | None) -> Format:
-    """Return the format of a surface by its name or suffix, or else that of points."""
+def mesh_of(source: Source, format: str | None, crs: str | None = None) -> Mesh | None:
+    """Return the triangles of a file by its format or suffix; None if it holds points alone."""
     for each in able("mesh"):
-        by_suffix = name is None and source.suffix in each.suffixes
-        if name == each.name or by_suffix:
-            return each
-    return format_of_source(source, name)
+        by_suffix = format is None and source.suffix in each.suffixes
+        if (format == each.name or by_suffix) and each.mesh is not None:
+            triangles = each.mesh(source)
+            return None if triangles is None else Mesh.of(source.name, *triangles, crs)
+    return None
 
 
 def _streamed(source: Source, format: str, options: dict[str, Any]) -> Iterator[Chunk]:

@@ -61,6 +61,13 @@ class Mesh:
         turned = np.roll(triangles, 1, axis=1)
         return cls(name, places, triangles[(triangles != turned).all(axis=1)], crs)
 
+    @property
+    def is_closed(self) -> bool:
+        """Whether each side of a triangle belongs to an even number of them."""
+        sides = np.sort(self.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+        _, counts = np.unique(sides, axis=0, return_counts=True)
+        return bool((counts % 2 == 0).all())
+
 
 def cut_mesh(
     mesh: Mesh,
