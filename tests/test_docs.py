@@ -102,7 +102,7 @@ def draw_goose(path: Path) -> None:
 @pytest.mark.parametrize("name", ["README.md", "docs/tutorial.md", *TUTORIALS])
 def test_what_the_page_shows_is_what_happens(name, capfd):
     modules = (
-        ("geopandas", "ezdxf", "skimage")
+        ("geopandas", "ezdxf", "skimage", "laspy", "trimesh")
         if name in TUTORIALS
         else ("matplotlib", "skimage", "svgelements")
     )
