@@ -61,9 +61,7 @@ def test_ply_keeps_all_to_the_bit_and_trimesh_reads_it(tmp_path):
     columns = {"red": np.arange(100, dtype=np.uint8), "w": xyz[:, 0] / 7, "n": np.arange(100)}
     points = cl.Points(xyz[:, :2], z=xyz[:, 2], columns=columns)
     points.write(tmp_path / "a.ply")
-    assert cl.read(tmp_path / "a.ply") == points.replace(
-        columns={**columns, "n": np.arange(100.0)}
-    )
+    assert cl.read(tmp_path / "a.ply") == points.replace(columns={**columns, "n": np.arange(100.0)})
     assert (np.asarray(trimesh.load(tmp_path / "a.ply").vertices) == xyz).all()
 
 
@@ -157,7 +155,9 @@ FOREIGN = {
 def test_text_and_numbers_of_other_tools(name):
     key, content = FOREIGN[name]
     points = cl.read(content, format=key)
-    assert np.column_stack([points.xy, np.asarray(points.z)]).tolist() == [list(each) for each in ROWS]
+    assert np.column_stack([points.xy, np.asarray(points.z)]).tolist() == [
+        list(each) for each in ROWS
+    ]
     (found,) = cl.slices(content, "z=6", thickness=0.1, fit=False, format=key)
     assert found.curves.points.xy.tolist() == [[4, 5]]
 
@@ -179,7 +179,8 @@ def test_headers_of_other_tools(change, kind):
     if change:
         content = patched(content, change["place"], change["form"], *change["values"])
     points = cl.read(content, format="las")
-    assert np.abs(np.column_stack([points.xy, np.asarray(points.z)]) - clouds.xyz()).max() <= 0.0005 + 1e-9
+    xyz = np.column_stack([points.xy, np.asarray(points.z)])
+    assert np.abs(xyz - clouds.xyz()).max() <= 0.0005 + 1e-9
 
 
 # --- Refusals -------------------------------------------------------------------------------
