@@ -17,7 +17,7 @@ use crate::space::oriented::{Oriented, Seen};
 const BYTES: usize = 64;
 
 /// A center is solved for where floating point leaves more than this part of its radius uncertain.
-const UNCERTAIN: f64 = 1e-12;
+const UNCERTAIN: f64 = 1e-9;
 
 /// The Voronoi vertices as triangles, in boxes.
 #[derive(Debug)]

@@ -1,5 +1,6 @@
 //! Voronoi vertices: the circumcenters of the triangles, estimated with an error bound and exact where asked.
 
+use crate::exact::double_double::DoubleDouble;
 use crate::exact::filter::ROUNDING;
 use crate::exact::sign::{self, Form, Number};
 use crate::point::{Point, cross, dot, length, sub};
@@ -69,7 +70,12 @@ pub fn circumcenter([a, b, c]: [Point; 3]) -> Point {
     if error <= 1e-11 * (at[0].abs() + at[1].abs()) {
         return at;
     }
-    [0, 1].map(|axis| sign::quotient(&Numerator { axis }, &Denominator, a, &[b, c]))
+    let ([u, v], unit) = DoubleDouble::differences(a, &[b, c]);
+    let center = HomogeneousCenter::new(&[DoubleDouble::integer(0); 2], &u, &v);
+    [0, 1].map(|axis| {
+        let quick = center.at[axis].over(&center.w, sign::ACCURACY).map(|x| x * unit);
+        quick.unwrap_or_else(|| sign::quotient(&Numerator { axis }, &Denominator, a, &[b, c]))
+    })
 }
 
 /// A coordinate of the circumcenter of the origin and two points, times twice the cross product.

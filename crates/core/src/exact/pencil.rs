@@ -14,7 +14,7 @@ use std::cell::OnceCell;
 use std::cmp::Ordering::{self, Equal, Greater, Less};
 
 /// A disk is solved for where floating point leaves its center uncertain by more than this part of its radius.
-const UNCERTAIN: f64 = 1e-12;
+const UNCERTAIN: f64 = 1e-6;
 
 /// What rounding adds to the error of a radius; unknown where its square may underflow.
 fn of_radius(radius: f64) -> f64 {

@@ -31,6 +31,8 @@ const FEW: usize = 24;
 const USUAL: usize = 4;
 /// Cells beyond that, for one walk or for many.
 const ALLOWANCE: usize = 1 << 12;
+/// With fewer cells left a walk is given up before it starts, and one cell is saved.
+const LEAST: usize = 16;
 
 /// A Voronoi vertex strictly inside `disk`, if there is one.
 #[cold]
@@ -82,6 +84,10 @@ impl<'a> Visit<'a> {
         pencil: &Pencil,
         disk: &Disk,
     ) -> Result<Option<Vertex>, TooLong> {
+        if let Some(allowance) = self.allowance.as_mut().filter(|allowance| **allowance < LEAST) {
+            *allowance += 1;
+            return Err(TooLong);
+        }
         let most = self.allowance.map_or(usize::MAX, |allowance| USUAL + allowance);
         self.cells.clear();
         self.many.clear();
