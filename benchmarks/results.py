@@ -15,10 +15,11 @@ from .rivals import CONTENDERS, Contender
 
 RESULTS = Path(__file__).parent / "results.json"
 SMALL_CALLS, AFTER_CRUST, LIMITS, TILES = "small calls", "after the crust", "limits", "tiles"
-FAMILIES = (*DISTRIBUTIONS, *HOSTILE, SMALL_CALLS, AFTER_CRUST, LIMITS, TILES)
+NEARLY_DEGENERATE = "nearly degenerate"
+FAMILIES = (*DISTRIBUTIONS, *HOSTILE, NEARLY_DEGENERATE, SMALL_CALLS, AFTER_CRUST, LIMITS, TILES)
 
 #: What is stored of a family: its `machine`, and either the `results` of contenders on points and
-#: those that were `absent`, or `seconds` by description.
+#: those that were `absent`, or `seconds` (or ratios of them) by description.
 Family = dict[str, Any]
 
 

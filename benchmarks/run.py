@@ -1,9 +1,9 @@
 """Measure families of figures, and write docs/benchmarks.md: `python -m benchmarks.run [FAMILY …]`.
 
-A family is a distribution of points, "small calls", "after the crust", "limits" or "tiles". Each is
-stored in results.json as soon as it is measured, in the place of what was stored of it; by default
-all are measured, which takes most of an hour. With `--quick`, `--sizes` or `--contenders` the page
-of what was measured is printed, and nothing is stored.
+A family is a distribution of points, "nearly degenerate", "small calls", "after the crust",
+"limits" or "tiles". Each is stored in results.json as soon as it is measured, in the place of what
+was stored of it; by default all are measured, which takes most of an hour. With `--quick`,
+`--sizes` or `--contenders` the page of what was measured is printed, and nothing is stored.
 """
 
 import argparse
@@ -18,7 +18,18 @@ from .data import HOSTILE
 from .limits import limits
 from .machine import describe
 from .measure import Bounds, Result, measure
-from .results import AFTER_CRUST, FAMILIES, LIMITS, SMALL_CALLS, TILES, Family, Results, store
+from .nearly_degenerate import nearly_degenerate
+from .results import (
+    AFTER_CRUST,
+    FAMILIES,
+    LIMITS,
+    NEARLY_DEGENERATE,
+    SMALL_CALLS,
+    TILES,
+    Family,
+    Results,
+    store,
+)
 from .rivals import OURS, Contender
 from .small_calls import small_calls
 from .targets import errors
@@ -30,6 +41,7 @@ QUICK_FAMILIES = ("uniform", "curves", SMALL_CALLS, LIMITS)
 
 #: The families without contenders: seconds by description.
 SECONDS: dict[str, Callable[[], dict[str, float]]] = {
+    NEARLY_DEGENERATE: nearly_degenerate,
     SMALL_CALLS: small_calls,
     AFTER_CRUST: after_crust,
     LIMITS: limits,

@@ -5,8 +5,9 @@ from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 from .measure import Result, ratio
+from .nearly_degenerate import TASKS, worst
 from .plot import plot
-from .results import AFTER_CRUST, LIMITS, TILES, Results, load
+from .results import AFTER_CRUST, LIMITS, NEARLY_DEGENERATE, TILES, Results, load
 from .rivals import CGAL_DELAUNAY, CONTENDERS, CRUST, DELAUNAY, OURS, Contender
 from .targets import MILLION, Target, targets
 
@@ -45,6 +46,11 @@ AFTER = """\
 What else samples of curves have, a million of them on all cores: the crust from the points, and
 the rest from the triangulation and the edges that it leaves. The certificate uses the interpolant
 that the local feature size was measured on.
+"""
+NEARLY = """\
+Processor time on one thread of 10⁵ points at relative distances from one ulp to 10⁻⁶, over that of
+the same task on points that are made the same way at a distance of 10⁻²: the largest ratio over
+the distances, and where it was. Each is the median of three turns.
 """
 IN_TILES = """\
 Curve samples, four million of them, as one piece on one thread and in tiles of a million, to edges
@@ -102,6 +108,9 @@ def page(results: Results) -> str:
             "## After the crust\n",
             AFTER,
             markdown(["", "seconds"], after_rows(results.seconds(AFTER_CRUST))),
+            "## Nearly degenerate points\n",
+            NEARLY,
+            markdown(["", *TASKS], nearly_rows(results.seconds(NEARLY_DEGENERATE))),
             "## In tiles\n",
             IN_TILES,
             markdown(["", "processor seconds"], tile_rows(results.seconds(TILES))),
@@ -282,6 +291,11 @@ def after_rows(after_crust: dict[str, float]) -> Iterator[list[str]]:
     for task, value in after_crust.items():
         if not task.startswith("ratio"):
             yield [f"`{task}`", seconds(value)]
+
+
+def nearly_rows(ratios: dict[str, float]) -> Iterator[list[str]]:
+    for kind, tasks in worst(ratios):
+        yield [kind, *(f"{ratio:.1f} ({distance})" for ratio, distance in tasks)]
 
 
 def tile_rows(figures: dict[str, float]) -> Iterator[list[str]]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from .data import CRUST_EDGES, DISTRIBUTIONS, HOSTILE
 from .measure import Result
-from .results import AFTER_CRUST, SMALL_CALLS, TILES, Results
+from .results import AFTER_CRUST, NEARLY_DEGENERATE, SMALL_CALLS, TILES, Results
 from .rivals import CGAL_CRUST, CGAL_DELAUNAY, CRUST, CRUST_2, OURS
 
 MILLION = 10**6
@@ -63,6 +63,11 @@ def targets(results: Results) -> Iterator[Target]:
     for kind, key, bound in (("curve samples", "ratio", 2), ("noisy ones", "ratio, noisy", 3)):
         text = f"medial axis, local feature size and certificate of 10⁶ {kind}: / their crust"
         yield Target(text, bound, results.seconds(AFTER_CRUST).get(key))
+    yield Target(
+        "10⁵ nearly degenerate points, worst kind, task and distance: / in general position",
+        10,
+        largest(results.seconds(NEARLY_DEGENERATE).values()),
+    )
     yield from of_tiles(results.seconds(TILES))
 
 

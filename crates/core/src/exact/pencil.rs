@@ -84,15 +84,16 @@ impl Disk {
     pub fn may_meet(&self, along: Point, [low, high]: [Point; 2], off: f64) -> bool {
         let center = turned(along, self.center);
         let size = center[0].abs() + center[1].abs();
-        let error = self.error + 8.0 * ROUNDING * size;
-        let (mut least, mut doubt) = (0.0, UNDERFLOW);
+        let (mut least, mut reach) = (0.0, 0.0);
         for axis in [0, 1] {
             let nearest = center[axis].max(low[axis]).min(high[axis]);
             least += nearest * (nearest - 2.0 * center[axis]);
-            let reach = low[axis].abs().max(high[axis].abs());
-            doubt += reach * (2.0 * error + 16.0 * ROUNDING * (reach + 2.0 * size));
-            doubt += 2.0 * off * (reach + off + size);
+            reach += low[axis].abs().max(high[axis].abs());
         }
+        let of_center = self.error + 8.0 * ROUNDING * size;
+        let doubt = reach * (2.0 * of_center + 16.0 * ROUNDING * (reach + 2.0 * size))
+            + 2.0 * off * (reach + 2.0 * (off + size))
+            + UNDERFLOW;
         // An unknown (not a number) meets.
         let is_apart = least > doubt;
         !is_apart

@@ -93,6 +93,7 @@ pub(crate) fn find_disk(delaunay: &Delaunay, edge: Edge, visit: &mut Visit<'_>) 
     if own.is_none() && smallest_disk_is_in_cells(delaunay, edge) {
         return Ok(Verdict::In(Circle::Smallest));
     }
+    visit.begin()?;
     let pencil = Pencil::new(delaunay.point(edge.p), delaunay.point(edge.q));
     let through = |corners| Circle::Through(pencil.vertex(corners));
     let circle = own.map_or(Circle::Smallest, through);

@@ -1,12 +1,14 @@
 //! The disk that shows why an edge is in the crust, for pictures.
 
-use super::crust::{Verdict, find_disk};
+use super::crust::{Outcome, Verdict, find_disk};
 use super::one_step_crust;
-use super::visit::Visit;
+use super::visit::{TooLong, Visit};
 use crate::adjacency::vertices_of_rows;
 use crate::delaunay::{Delaunay, Edge};
 use crate::exact::pencil::{Circle, Pencil};
 use crate::point::Point;
+use crate::progress::Progress;
+use crate::voronoi::VoronoiVertices;
 
 /// The center and the radius of the smallest disk that proves the edge between two rows to be in the crust: it touches both,
 /// and holds no point and no Voronoi vertex inside. `None` for any other pair of rows.
@@ -16,10 +18,19 @@ pub fn empty_disk(delaunay: &Delaunay, rows: [u32; 2]) -> Option<(Point, f64)> {
     if !one_step_crust::is_in(delaunay, edge) {
         return None;
     }
-    let Ok(Verdict::In(circle)) = find_disk(delaunay, edge, &mut Visit::default()) else {
+    let verdict = find_disk(delaunay, edge, &mut Visit::limited());
+    let Ok(Verdict::In(circle)) = verdict.or_else(|TooLong| find_by_place(delaunay, edge)) else {
         return None;
     };
     Some(unscaled(delaunay, edge, circle))
+}
+
+/// The search where the disk meets very many cells; by a walk all the same, if there is no memory for the index.
+#[cold]
+fn find_by_place(delaunay: &Delaunay, edge: Edge) -> Outcome {
+    let index = VoronoiVertices::new(delaunay, &Progress::default()).ok();
+    let mut visit = index.as_ref().map_or_else(Visit::default, Visit::with_index);
+    find_disk(delaunay, edge, &mut visit)
 }
 
 /// The edge of the triangulation between two rows.
@@ -41,7 +52,6 @@ fn unscaled(delaunay: &Delaunay, edge: Edge, circle: Circle) -> (Point, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Progress;
 
     #[test]
     fn the_side_of_a_square_has_its_own_diameter_and_the_diagonal_no_disk() {
@@ -66,6 +76,22 @@ mod tests {
                 rows.iter().all(|&row| distance(&points[row as usize]) < radius * (1.0 + 1e-9))
             );
         }
+    }
+
+    #[test]
+    fn a_disk_that_meets_very_many_cells_is_found() {
+        let count = 10_000;
+        let circle = |k: u32| (std::f64::consts::TAU * f64::from(k) / f64::from(count)).sin_cos();
+        let on = |k: u32| {
+            let ((sin, cos), radius) = (circle(k / 2), 1.0 + 1e-10 * f64::from(k % 2));
+            [radius * cos, radius * sin]
+        };
+        let points: Vec<Point> = (0..2 * count).map(on).collect();
+        let delaunay = Delaunay::new(&points, &Progress::default()).expect("points");
+        let crust = super::super::crust(&delaunay, &Progress::default()).expect("a crust");
+        let disk = |rows: &[u32; 2]| empty_disk(&delaunay, *rows).expect("an edge of the crust");
+        let far = crust.iter().step_by(500).filter(|rows| disk(rows).1 > 0.1);
+        assert!(far.count() > 5);
     }
 
     fn scattered(k: f64) -> Point {

@@ -31,7 +31,7 @@ const FEW: usize = 24;
 const USUAL: usize = 4;
 /// Cells beyond that, for one walk or for many.
 const ALLOWANCE: usize = 1 << 12;
-/// With fewer cells left a walk is given up before it starts, and one cell is saved.
+/// With fewer cells left a search is given up before it begins, and one cell is saved.
 const LEAST: usize = 16;
 
 /// A Voronoi vertex strictly inside `disk`, if there is one.
@@ -61,6 +61,18 @@ impl<'a> Visit<'a> {
         Self { index: Some(index), ..Self::default() }
     }
 
+    /// To be asked before the search for the disk of an edge: is there an allowance for it?
+    #[inline]
+    pub fn begin(&mut self) -> Result<(), TooLong> {
+        match &mut self.allowance {
+            Some(allowance) if *allowance < LEAST => {
+                *allowance += 1;
+                Err(TooLong)
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// A Voronoi vertex strictly inside `disk`, if there is one.
     pub fn find(
         &mut self,
@@ -84,10 +96,6 @@ impl<'a> Visit<'a> {
         pencil: &Pencil,
         disk: &Disk,
     ) -> Result<Option<Vertex>, TooLong> {
-        if let Some(allowance) = self.allowance.as_mut().filter(|allowance| **allowance < LEAST) {
-            *allowance += 1;
-            return Err(TooLong);
-        }
         let most = self.allowance.map_or(usize::MAX, |allowance| USUAL + allowance);
         self.cells.clear();
         self.many.clear();

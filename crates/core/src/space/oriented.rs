@@ -13,6 +13,8 @@ pub struct Oriented {
     along: Point,
     /// The rectangle in that frame.
     bounds: Bounds,
+    /// Twice the largest of its coordinates.
+    size: f64,
 }
 
 /// An [`Oriented`] rectangle as it is seen from some point.
@@ -35,9 +37,7 @@ impl Oriented {
         let axis = usize::from(height > width);
         let less = |a: &Bounds, b: &Bounds| a.low[axis].total_cmp(&b.low[axis]);
         let ends = [boxes.clone().min_by(less), boxes.clone().max_by(less)];
-        let [Some(first), Some(last)] = ends else {
-            return Self { origin: [0.0; 2], along: [1.0, 0.0], bounds: whole };
-        };
+        let [Some(first), Some(last)] = ends else { return Self::parallel(whole) };
         let (origin, chord) = (first.low, sub(last.low, first.low));
         let far = length(chord);
         let along = if far.is_normal() { chord.map(|x| x / far) } else { [1.0, 0.0] };
@@ -45,9 +45,14 @@ impl Oriented {
         let bounds = boxes.fold(Bounds::EMPTY, |all, b| all.join(Bounds::of(&corners(b))));
         if !bounds.largest().is_finite() || !whole.largest().is_finite() {
             let everywhere = Bounds { low: [f64::NEG_INFINITY; 2], high: [f64::INFINITY; 2] };
-            return Self { origin: [0.0; 2], along: [1.0, 0.0], bounds: everywhere };
+            return Self::parallel(everywhere);
         }
-        Self { origin, along, bounds }
+        Self { origin, along, bounds, size: 2.0 * bounds.largest() }
+    }
+
+    /// One that is parallel to the axes.
+    fn parallel(bounds: Bounds) -> Self {
+        Self { origin: [0.0; 2], along: [1.0, 0.0], bounds, size: 2.0 * bounds.largest() }
     }
 
     /// The same seen from `p`.
@@ -57,7 +62,7 @@ impl Oriented {
         let from = sub(p, self.origin);
         let bounds = self.bounds.seen_from(turned(self.along, from));
         // Each coordinate is a difference of two sums of two products of a difference.
-        let size = 2.0 * self.bounds.largest() + from[0].abs() + from[1].abs();
+        let size = self.size + from[0].abs() + from[1].abs();
         Seen { along: self.along, bounds, doubt: 8.0 * ROUNDING * size }
     }
 }
