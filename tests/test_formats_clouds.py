@@ -97,6 +97,18 @@ def test_an_octree_is_read_where_it_meets_a_box():
     assert 30 < some < 200
 
 
+@pytest.mark.parametrize("key", ["las", "laz"])
+def test_a_slice_may_have_two_points_of_a_file(key):
+    """laspy takes an index of two rows for a row and a column."""
+    content = clouds.seeds()[key][0]
+    (found,) = cl.slices(content, ["x=1", "y=0"], thickness=0.002, fit=False, format=key)[:1]
+    assert found.count == 1
+    z = clouds.xyz(8)[:, 2]
+    (found,) = cl.slices(clouds.las(3, key == "laz", count=8), "z=0.25", thickness=0.1, fit=False,
+                         format=key)  # fmt: skip
+    assert found.count == (z == 0.25).sum() == 2
+
+
 def test_withheld_points_are_no_part_of_a_slice():
     made = laspy.read(io.BytesIO(clouds.las(6, False)))
     made.withheld[::2] = 1

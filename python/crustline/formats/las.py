@@ -37,7 +37,7 @@ def cloud(source: Source, box: FloatArray) -> Iterator[Chunk]:
             records = _records(source, reader, head, CHUNK)
         crs = _crs(reader.header)
         for record in records:
-            yield Chunk((record.x, record.y, record.z), _Kept(record), crs)
+            yield Chunk(_axes(record), _Kept(record), crs)
 
 
 def stream(source: Source, rows: int) -> Iterator[Points]:
@@ -96,6 +96,32 @@ def _records(source: Source, reader: Any, head: LasHead, rows: int) -> Iterator[
         raise source.error(
             f"the header says {head.points:,} points, and {there:,} are there: it was cut off"
         )
+
+
+def _axes(record: Any) -> tuple[_Scaled, _Scaled, _Scaled]:
+    x, y, z = (_Scaled(getattr(record, name), record.scales[k], record.offsets[k])
+               for k, name in enumerate("XYZ"))  # fmt: skip
+    return x, y, z
+
+
+class _Scaled:
+    """Steps of an axis, made coordinates when they are asked for.
+
+    laspy has such views, but takes two rows for a row and a column.
+    """
+
+    def __init__(self, steps: Any, scale: float, offset: float) -> None:
+        self.steps, self.scale, self.offset = steps, scale, offset
+
+    def __len__(self) -> int:
+        return len(self.steps)
+
+    def __getitem__(self, rows: Any) -> FloatArray:
+        found: FloatArray = self.steps[rows] * self.scale + self.offset
+        return found
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> FloatArray:
+        return self[:]
 
 
 class _Kept:
