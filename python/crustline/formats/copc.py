@@ -16,6 +16,7 @@ import numpy.typing as npt
 from crustline.arrays import FloatArray
 from crustline.formats.cloud import CHUNK
 from crustline.formats.las_header import LasHead
+from crustline.formats.laz_chunks import Packing, check_layers
 from crustline.formats.source import Source
 
 __all__ = ["is_copc", "records_of_nodes"]
@@ -35,6 +36,8 @@ def records_of_nodes(
     """Yield laspy's records of the points of the nodes that meet a box."""
     with source.path(".laz") as path, open(path, "rb") as file:
         nodes = _nodes(file, path.stat().st_size, head, source)
+        places = zip(nodes["offset"].tolist(), nodes["bytes"].tolist(), strict=True)
+        check_layers(file, Packing.of(_packing(file, head)), places, source)
         chosen = nodes[_meets(nodes["key"], _cube(file, head, source), box)]
         for group in _groups(chosen):
             yield _unpacked(file, header, head, group, selection)
@@ -102,6 +105,14 @@ def _groups(nodes: npt.NDArray[Any]) -> Iterator[npt.NDArray[Any]]:
             yield cut
 
 
+def _packing(file: BinaryIO, head: LasHead) -> bytes:
+    """Return the record of LASzip."""
+    place = head.record(b"laszip encoded", 22204)
+    assert place is not None
+    file.seek(place[0])
+    return file.read(place[1])
+
+
 def _unpacked(
     file: BinaryIO, header: Any, head: LasHead, nodes: npt.NDArray[Any], selection: Any
 ) -> Any:
@@ -112,10 +123,7 @@ def _unpacked(
     for start, length in zip(nodes["offset"].tolist(), nodes["bytes"].tolist(), strict=True):
         file.seek(start)
         packed += file.read(length)
-    place = head.record(b"laszip encoded", 22204)
-    assert place is not None
-    file.seek(place[0])
-    how = file.read(place[1])
+    how = _packing(file, head)
     count = int(nodes["points"].sum(dtype=np.int64))
     out = np.zeros(count * header.point_format.size, np.uint8)
     table = list(zip(nodes["points"].tolist(), nodes["bytes"].tolist(), strict=True))

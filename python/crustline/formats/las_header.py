@@ -8,6 +8,7 @@ from typing import BinaryIO
 
 import numpy as np
 
+from crustline.formats.laz_chunks import Packing, check_chunks
 from crustline.formats.source import Source
 
 __all__ = ["LasHead", "check"]
@@ -138,16 +139,16 @@ def _check_packed(file: BinaryIO, found: LasHead, record: int, size: int, source
         raise source.error("its points are packed, and no record says how: repair it")
     file.seek(place[0])
     data = file.read(place[1])
-    chunk, items = struct.unpack_from("<I", data, 12)[0], struct.unpack_from("<H", data, 32)[0]
-    sizes = [struct.unpack_from("<H", data, 36 + 6 * k)[0] for k in range((len(data) - 34) // 6)]
-    if not 0 < items == len(sizes) or sum(sizes) != record:
+    packing = Packing.of(data)
+    if struct.unpack_from("<H", data, 32)[0] != len(packing.items) or packing.size != record:
         raise source.error(f"its record of LASzip does not make up points of {record} bytes")
-    if not found.points:
-        return
-    _check_table(file, found, chunk, size, source)
+    if found.points:
+        end = _table(file, found, packing.chunk, size, source)
+        check_chunks(file, data, found.starts, end, source)
 
 
-def _check_table(file: BinaryIO, found: LasHead, chunk: int, size: int, source: Source) -> None:
+def _table(file: BinaryIO, found: LasHead, chunk: int, size: int, source: Source) -> int:
+    """Return where the table of chunks is, or raise `FormatError` if its count cannot be true."""
     cut = "it was cut off, or was never closed: copy or write it again"
     file.seek(found.starts)
     table = _number(file.read(8), "<q")
@@ -166,6 +167,7 @@ def _check_table(file: BinaryIO, found: LasHead, chunk: int, size: int, source: 
             f"the header says {found.points:,} points, which {table - found.starts:,} bytes are "
             "too few for: repair it"
         )
+    return table
 
 
 def _number(content: bytes, form: str) -> int:
