@@ -10,6 +10,7 @@ import re
 import shlex
 import shutil
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -84,6 +85,20 @@ def readers_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     draw_goose(tmp_path / "photo.png")
     (tmp_path / "lake.wkt").write_text("POLYGON ((0 0, 40 3, 78 -6, 80 4, 42 13, 0 9, 0 0))")
     monkeypatch.chdir(tmp_path)
+    make_bodies()
+
+
+def make_bodies() -> None:
+    """Write what slices are made of: a round tower in scan.laz, a drum in part.stl."""
+    rng = np.random.default_rng(0)
+    angle, z = rng.uniform(0, 2 * np.pi, 40_000), rng.uniform(12, 13, 40_000)
+    tower = np.stack([5 + 3 * np.cos(angle), 2 + 3 * np.sin(angle)], axis=1)
+    with suppress(ImportError):
+        cl.Points(tower, z=z).write("scan.laz")
+    with suppress(ImportError):
+        import trimesh
+
+        trimesh.creation.cylinder(5, 60).export("part.stl")
 
 
 def draw_goose(path: Path) -> None:
@@ -104,7 +119,7 @@ def test_what_the_page_shows_is_what_happens(name, capfd):
     modules = (
         ("geopandas", "ezdxf", "skimage", "laspy", "trimesh")
         if name in TUTORIALS
-        else ("matplotlib", "skimage", "svgelements")
+        else ("matplotlib", "skimage", "svgelements", "laspy", "trimesh", "ezdxf")
     )
     for module in modules:
         pytest.importorskip(module)
