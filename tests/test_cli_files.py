@@ -241,3 +241,28 @@ def test_help_is_in_sections(run: Run) -> None:
     place = {word: k for k, line in enumerate(lines) for word in line.split()[:1]}
     assert place["--by"] < place["--crs"] < place["--orient"] < place["--beta"]
     assert max(sum(1 for _ in group) for key, group in groupby(lines, key=bool) if key) < 40
+
+
+def test_longitudes_without_a_crs_are_told(run: Run, tmp_path: Path) -> None:
+    """A ring across 180° E became a ring and a line, with nothing said."""
+    pytest.importorskip("pyproj")
+    rows = "-178,-17\n-179,-16\n179.2,-15\n178,-16\n179,-18\n-179.5,-18.5\n"
+    (tmp_path / "fiji.csv").write_text(f"lon,lat\n{rows}")
+    advice = "--crs EPSG:4326 --project auto"
+    _, _, err = run("reconstruct", "fiji.csv")
+    assert advice in err
+    _, out, _ = run("info", "fiji.csv")
+    assert advice in out
+    _, _, err = run("reconstruct", "fiji.csv", *advice.split())
+    assert "warning" not in err
+    assert "1 ring, 0 open curves" in err
+
+
+def test_info_says_what_to_try(run: Run, tmp_path: Path) -> None:
+    rows = "".join(f"{name},{x},{y}\n" for name in "ab" for x, y in ((0, 0), (1, 0), (0, 1.5)))
+    (tmp_path / "by shape.csv").write_text(f"Shape,X,Y\n{rows}")
+    _, out, _ = run("info", "by shape.csv")
+    assert "crustline reconstruct 'by shape.csv' --by Shape -o curves.geojson" in out
+    (tmp_path / "near.csv").write_text("x,y\n0,0\n1,0\n1.000000001,0\n0,1\n")
+    _, out, _ = run("info", "near.csv")
+    assert "--merge 1.1e-09" in out

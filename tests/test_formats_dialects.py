@@ -78,6 +78,8 @@ UNDERSTOOD = {
     "UTF-8 with a mark": "\ufeffx,y\n1.5,2.5\n3.5,4.5\n5.5,2.5\n",
     "lines of old Macs": "x,y\r1.5,2.5\r3.5,4.5\r5.5,2.5\r",
     "names in a comment": "# x y\n" + BODY,
+    "ParaView, unquoted": "Points:0,Points:1\n1.5,2.5\n3.5,4.5\n5.5,2.5\n",
+    "a WKT-like name": "Polygon,x,y\n1,1.5,2.5\n2,3.5,4.5\n3,5.5,2.5\n",
     "names in a comment with %": "% x  y\n" + BODY,
 }
 
@@ -134,6 +136,7 @@ def test_two_systems_in_a_file_are_for_the_user_to_choose_from() -> None:
         ("1.234.567,5;2.000,25", [1234567.5, 2000.25]),
         ("1,234,567.5;2,000", [1234567.5, 2000]),
         ("600 000,5;200 000,25".replace(" ", "\u202f"), [600000.5, 200000.25]),
+        ("600 000,5;1 200 000,25", [600000.5, 1200000.25]),
         ("\u22121.5;2.5", [-1.5, 2.5]),
     ],
 )
@@ -174,7 +177,7 @@ def test_a_node_file_has_counts_above_and_numbers_in_front() -> None:
 
 def test_a_first_column_that_counts_is_no_x() -> None:
     text = "".join(f"{k},{x},{y}\n" for k, (x, y) in enumerate(TRIANGLE, 1))
-    refused(text, ["counts the rows", "--columns 1,2", "--columns 0,1"])
+    refused(text, ["numbers the rows", "--columns 1,2", "--columns 0,1"])
     assert read_text(text, columns=(1, 2)).xy.tolist() == TRIANGLE
 
 
@@ -202,7 +205,7 @@ def test_names_without_rows_are_told() -> None:
 def test_commas_both_ways_are_refused() -> None:
     refused("600,000,200,000\n600,500,200,250\n600,125,200,750\n", ["commas", "--separator"])
     refused("x,y\n600,000,200,000\n", ["line 2", "4 columns", "semicolons"])
-    assert len(read_text("1,25,3,75\n1,50,3,25\n")) == 2
+    assert len(read_with_warning("1,25,3,75\n1,50,3,25\n", ["4 columns without names"])) == 2
 
 
 def test_a_comma_before_three_digits_may_mean_two_things() -> None:
@@ -305,3 +308,31 @@ def test_json_that_is_no_geojson(text: str) -> None:
 )
 def test_json_that_is_no_points_is_refused(text: str, words: list[str]) -> None:
     refused(text, words)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "0,0 1,0 1,1 0,1\n",  # a polygon in SVG: it was one point, 0.0 and 1.0, with a height
+        "8.5,47.4,0 8.6,47.5,0 8.7,47.4,0\n",  # KML
+        "1,2,0 3,4,0\n5,6,0 7,8,0\n",
+    ],
+)
+def test_several_points_a_line_are_refused(text: str) -> None:
+    """The first of each line was taken, and the others were columns of it, or lost."""
+    refused(text, ["several points in a line", "--columns 0,1"])
+
+
+def test_numbers_of_points_are_not_taken_for_x() -> None:
+    """As surveyors write them: number, easting, northing, height, code."""
+    rows = "".join(f"{k},{x},{y},7.5,TREE\n" for k, (x, y) in enumerate(TRIANGLE, 101))
+    refused(rows, ["numbers the rows", "--columns 1,2"])
+    assert read_text(rows, columns=(1, 2, 3)).xy.tolist() == TRIANGLE
+
+
+def test_many_columns_without_names_say_what_was_taken() -> None:
+    points = read_with_warning(
+        "1.5 2.5 7 A\n3.5 4.5 8 B\n5.5 2.5 9 C\n", ["4 columns", "x, y and z"]
+    )
+    assert points.xy.tolist() == TRIANGLE
+    assert read_text("1.5 2.5 7 A\n", columns=(0, 1)).xy.tolist() == [[1.5, 2.5]]

@@ -306,7 +306,7 @@ PARQUET: dict[str, tuple[Any, Any]] = {
     "geometries of the other byte order": (
         geo(list(shapely.to_wkb(shapely.points(XY), byte_order=0))), XY,
     ),
-    "GeoArrow": (geo(_points_of_arrow(), "point"), "WKB"),
+    "GeoArrow": (geo(_points_of_arrow(), "point"), XY),
     "no rows": (pa.table({"x": pa.array([], pa.float64()), "y": pa.array([], pa.float64())}), []),
     "other columns": (pa.table({"a": [1], "b": [2], "c": [3]}), "x"),
 }  # fmt: skip

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from functools import wraps
 from typing import Any
@@ -13,9 +14,10 @@ from crustline.delaunay import Delaunay, points_and_how
 from crustline.errors import InputError, MissingExtraError, require, shown
 from crustline.points import Points, as_crs
 
-__all__ = ["is_geographic", "project", "projected", "to_longitude_latitude"]
+__all__ = ["is_geographic", "looks_geographic", "project", "projected", "to_longitude_latitude"]
 
 _LONGITUDE_LATITUDE = "OGC:CRS84"
+_LONGITUDES, _LATITUDES = {"lon", "lng", "long", "longitude"}, {"lat", "latitude"}
 _WGS_84 = (_LONGITUDE_LATITUDE, "EPSG:4326")
 #: Mean directions shorter than this belong to points all around the globe.
 _AROUND = 0.1
@@ -113,6 +115,14 @@ def is_geographic(points: Points) -> bool:
         return bool(_crs(points.crs).is_geographic)
     except (InputError, MissingExtraError):
         return False
+
+
+def looks_geographic(points: Points) -> bool:
+    """Return whether points without a CRS are called longitude and latitude, and can be."""
+    words = {word for name in points.names for word in re.findall("[a-z]+", name.lower())}
+    called = bool(words & _LONGITUDES) and bool(words & _LATITUDES)
+    within = bool((np.abs(points.xy) <= (360, 90)).all())
+    return points.crs is None and called and within
 
 
 def _crs(name: str) -> Any:

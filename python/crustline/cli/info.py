@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -26,8 +27,8 @@ def info(source: Source, as_json: bool) -> None:
     """Say what a file of points or a mesh holds, and how it was understood.
 
     INPUT is a file of points; - is standard input. Prints its format, what was found in its text,
-    the number of points, their extent, CRS, columns, duplicates and spacing; of a mesh its vertices
-    and triangles, its extent, whether it is closed, and how to cut it.
+    the number of points, their extent, CRS, columns, duplicates and spacing, and what to try; of a
+    mesh its vertices and triangles, its extent, whether it is closed, and how to cut it.
 
     \b
         crustline info goose.csv
@@ -42,6 +43,7 @@ def info(source: Source, as_json: bool) -> None:
         about = {"file": opened.name, **opened.notes, **_about_points(points)}
         if len(points):
             about |= _about_spacing(Delaunay(points, threads=source.threads))
+        about["to try"] = _to_try(source, points)
     if as_json:
         click.echo(json.dumps(about))
         return
@@ -80,6 +82,36 @@ def _about_points(points: Points) -> dict[str, Any]:
     about["CRS"] = points.crs or "not given"
     about["columns"] = {name: str(column.dtype) for name, column in points.columns.items()}
     return about
+
+
+def _to_try(source: Source, points: Points) -> str:
+    """Return the command that makes curves of such points, with the options that they call for."""
+    from crustline.delaunay import Delaunay
+    from crustline.merge import near_tolerance
+    from crustline.projection import is_geographic, looks_geographic
+
+    options = [shlex.quote(source.name)]
+    if looks_geographic(points):
+        options.append("--crs EPSG:4326")
+    if is_geographic(points) or looks_geographic(points):
+        options.append("--project auto")
+    tolerance = near_tolerance(Delaunay(points)) if len(points) else None
+    if tolerance is not None:
+        options.append(f"--merge {tolerance:g}")
+    options += [f"--by {shlex.quote(name)}" for name in _groups(points)[:1]]
+    return f"crustline reconstruct {' '.join(options)} -o curves.geojson"
+
+
+def _groups(points: Points) -> list[str]:
+    """Return the columns that look like the names of curves: few values, each at several rows."""
+    found = []
+    for name, values in points.columns.items():
+        if values.dtype.kind in "OUi" and len(points):
+            groups, counts = np.unique(values.astype(str), return_counts=True)
+            runs = 1 + int(np.count_nonzero(values[1:] != values[:-1]))
+            if 1 < len(groups) == runs and counts.min() > 2:
+                found.append(name)
+    return found
 
 
 def _about_spacing(delaunay: Delaunay) -> dict[str, Any]:

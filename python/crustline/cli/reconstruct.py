@@ -156,12 +156,15 @@ def completion(
 
 
 def _warn_of_degrees(source: Source, points: Points, method: Method) -> None:
-    from crustline.projection import is_geographic
+    from crustline.projection import is_geographic, looks_geographic
 
-    if method.project is None and is_geographic(points):
+    if method.project is not None:
+        return
+    if is_geographic(points) or looks_geographic(points):
+        named = "" if points.crs else "--crs EPSG:4326 "
         warnings.warn(
             f"{source.name}: longitudes and latitudes are taken for coordinates of the plane: "
-            "add --project auto",
+            f"add {named}--project auto",
             FormatWarning,
             stacklevel=4,
         )

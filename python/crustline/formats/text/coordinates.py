@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 import numpy as np
@@ -18,6 +19,7 @@ from crustline.points import Points
 
 __all__ = ["as_points", "choose_coordinates", "holds_sentinels", "is_count"]
 
+_TWO_NUMBERS = re.compile(r"[-+]?\d[\d.]{0,40}\s+[-+]?\d[\d.]{0,40}")
 #: What programs write where a value is missing.
 _SENTINELS = (-9999.0, -99999.0, -999.0, -32768.0, -999999.0, 1e20, 9.96920996838687e36, 1e30)
 
@@ -53,6 +55,8 @@ def as_points(
     table, values = table.less(kept), values[kept]
     if settings.columns is None and not table.dialect.header:
         _refuse_numbering(table)
+        _refuse_several_points_a_line(table)
+        _say_what_was_taken(table, positions)
         _refuse_commas_both_ways(table, settings)
     if settings.columns is None and len(positions) == 3:
         _warn_of_section(table, values, positions)
@@ -247,12 +251,41 @@ def _refuse_numbering(table: Table) -> None:
         return
     first = table.columns[0]
     numbers = first if isinstance(first, np.ndarray) else parse_all(first, table.mark)[0]
-    counted = np.array_equal(numbers, np.arange(rows) + numbers[0]) and numbers[0] in (0, 1)
-    if counted:
+    if _is_numbering(np.asarray(numbers, dtype=np.float64), len(table.columns)):
         raise FormatError(
-            f"{table.lines.source.name}: the first column counts the rows and is hardly x: "
+            f"{table.lines.source.name}: the first column numbers the rows and is hardly x: "
             "choose columns (--columns 1,2, or --columns 0,1 if it is)"
         )
+
+
+def _is_numbering(numbers: FloatArray, width: int) -> bool:
+    """Return whether numbers go up by ones, from 0 or 1, or from anywhere beside three others."""
+    by_ones = np.array_equal(numbers, np.arange(len(numbers)) + numbers[0])
+    from_one = numbers[0] in (0, 1)
+    return by_ones and (from_one or (width > 3 and float(numbers[0]).is_integer()))
+
+
+def _say_what_was_taken(table: Table, positions: Sequence[int]) -> None:
+    """Warn of what was taken for coordinates of four columns and more without names."""
+    if len(table) and len(table.columns) > 3:
+        taken = "x, y and z" if len(positions) == 3 else "x and y"
+        table.lines.source.warn(
+            f"takes the first of {len(table.columns)} columns without names for {taken}: if they "
+            f"are not, choose columns (--columns {','.join(map(str, positions))} if they are)"
+        )
+
+
+def _refuse_several_points_a_line(table: Table) -> None:
+    """Refuse x,y x,y x,y in a line, of which the first pair would be taken, or an odd mixture."""
+    if not len(table):
+        return
+    first = [str(cells[0]) for cells in table.columns.values()]
+    parted = any(_TWO_NUMBERS.fullmatch(cell.strip()) for cell in first)
+    if parted or (len(table) == 1 and len(first) > 3):
+        raise table.error(
+            0, None, "this may be several points in a line: give each a line of its own, or choose "
+            "columns (--columns 0,1) if it is one",
+        )  # fmt: skip
 
 
 def _refuse_commas_both_ways(table: Table, settings: Settings) -> None:

@@ -76,7 +76,7 @@ def find_dialect(lines: Lines, settings: Settings) -> tuple[Lines, Dialect]:
     rows = _sample(lines, separator)
     if not rows:
         raise FormatError(
-            f"{lines.source.name} holds comments only: give a file with at least one point"
+            f"{lines.source.name} has comments and headings only: give at least one point"
         )
     top = _top(lines, rows, separator, settings)
     below = [row for row in rows if row[0] >= top.first]
@@ -118,7 +118,9 @@ def _separator(lines: Lines) -> str:
     most = max(count for count, _ in scores.values())
     if most == 0:
         first = next((line for _, line in lines.data(lines.first)), "")
-        return next((each for each in _SEPARATORS if each in first), " ")
+        there = [each for each in _SEPARATORS if each in first]
+        named = [each for each in there if find_pair(split(first, each)) is not None]
+        return next(iter((*named, *there)), " ")
     able = [each for each, (count, _) in scores.items() if count == most]
     return able[0] if able[0] not in ", " else max(able, key=lambda each: scores[each][1])
 

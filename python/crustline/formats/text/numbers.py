@@ -17,7 +17,7 @@ Mark = Literal[".", ","]
 #: What stands for a value that is not there.
 MISSING = frozenset(["", "nan", "na", "n/a", "null", "none", "nil", "-", "--", "?", "<na>", "#n/a"])
 
-_GROUPS = "'’\u00a0\u2009\u202f"  # apostrophes and narrow spaces between groups of three digits
+_GROUPS = "'’ \u00a0\u2009\u202f"  # apostrophes and spaces between groups of three digits
 _DIGITS = (
     rf"(?:\d{{1,3}}(?:[{_GROUPS}]\d{{3}})+|\d{{1,3}}(?:,\d{{3}})+|\d{{1,3}}(?:\.\d{{3}})+|\d+)"
 )
