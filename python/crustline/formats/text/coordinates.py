@@ -56,8 +56,8 @@ def as_points(
     if settings.columns is None and not table.dialect.header:
         _refuse_numbering(table)
         _refuse_several_points_a_line(table)
-        _say_what_was_taken(table, positions)
         _refuse_commas_both_ways(table, settings)
+        _say_what_was_taken(table, positions)
     if settings.columns is None and len(positions) == 3:
         _warn_of_section(table, values, positions)
     return _points(table, values, positions)
