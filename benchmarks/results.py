@@ -14,9 +14,11 @@ from .measure import Result, ratio
 from .rivals import CONTENDERS, Contender
 
 RESULTS = Path(__file__).parent / "results.json"
-SMALL_CALLS, AFTER_CRUST, LIMITS, TILES = "small calls", "after the crust", "limits", "tiles"
+SMALL_CALLS, CONNECT = "small calls", "connect"
+AFTER_CRUST, LIMITS, TILES = "after the crust", "limits", "tiles"
 NEARLY_DEGENERATE = "nearly degenerate"
-FAMILIES = (*DISTRIBUTIONS, *HOSTILE, NEARLY_DEGENERATE, SMALL_CALLS, AFTER_CRUST, LIMITS, TILES)
+OTHERS = (NEARLY_DEGENERATE, SMALL_CALLS, CONNECT, AFTER_CRUST, LIMITS, TILES)
+FAMILIES = (*DISTRIBUTIONS, *HOSTILE, *OTHERS)
 
 #: What is stored of a family: its `machine`, and either the `results` of contenders on points and
 #: those that were `absent`, or `seconds` (or ratios of them) by description.

@@ -1,8 +1,8 @@
 """Measure families of figures, and write docs/benchmarks.md: `python -m benchmarks.run [FAMILY …]`.
 
-A family is a distribution of points, "nearly degenerate", "small calls", "after the crust",
-"limits" or "tiles". Each is stored in results.json as soon as it is measured, in the place of what
-was stored of it; by default all are measured, which takes most of an hour. With `--quick`,
+A family is a distribution of points, "nearly degenerate", "small calls", "connect", "after the
+crust", "limits" or "tiles". Each is stored in results.json as soon as it is measured, in the place
+of what was stored of it; by default all are measured, which takes most of an hour. With `--quick`,
 `--sizes` or `--contenders` the page of what was measured is printed, and nothing is stored.
 """
 
@@ -14,6 +14,7 @@ from dataclasses import asdict
 from . import table
 from .after_crust import after_crust
 from .build_rivals import available
+from .connect import connect_figures
 from .data import HOSTILE
 from .limits import limits
 from .machine import describe
@@ -21,6 +22,7 @@ from .measure import Bounds, Result, measure
 from .nearly_degenerate import nearly_degenerate
 from .results import (
     AFTER_CRUST,
+    CONNECT,
     FAMILIES,
     LIMITS,
     NEARLY_DEGENERATE,
@@ -43,6 +45,7 @@ QUICK_FAMILIES = ("uniform", "curves", SMALL_CALLS, LIMITS)
 SECONDS: dict[str, Callable[[], dict[str, float]]] = {
     NEARLY_DEGENERATE: nearly_degenerate,
     SMALL_CALLS: small_calls,
+    CONNECT: connect_figures,
     AFTER_CRUST: after_crust,
     LIMITS: limits,
     TILES: tiles,

@@ -7,7 +7,7 @@ from pathlib import Path
 from .measure import Result, ratio
 from .nearly_degenerate import TASKS, worst
 from .plot import plot
-from .results import AFTER_CRUST, LIMITS, NEARLY_DEGENERATE, TILES, Results, load
+from .results import AFTER_CRUST, CONNECT, LIMITS, NEARLY_DEGENERATE, TILES, Results, load
 from .rivals import CGAL_DELAUNAY, CONTENDERS, CRUST, DELAUNAY, OURS, Contender
 from .targets import MILLION, Target, targets
 
@@ -56,6 +56,11 @@ IN_TILES = """\
 Curve samples, four million of them, as one piece on one thread and in tiles of a million, to edges
 and curves: seconds of processors, from the reports of the runs. Reading the input is not counted,
 reading and writing the files of the run is told apart.
+"""
+BESIDE = """\
+`connect` and `crust` of the same points, each from the points with its own triangulation, one
+thread, in a process of its own; ratios are medians of those of the same turn. The last but one is
+that of a circle of 100,000 points with its center, which sees them all, to the circle alone.
 """
 FLOOR = "What a million points cost at least, beside what crustline takes for them on one thread:\n"
 CACHE = """\
@@ -114,6 +119,9 @@ def page(results: Results) -> str:
             "## In tiles\n",
             IN_TILES,
             markdown(["", "processor seconds"], tile_rows(results.seconds(TILES))),
+            "## connect beside the crust\n",
+            BESIDE,
+            markdown(["", "measured"], connect_rows(results.seconds(CONNECT))),
             "## Where crustline loses\n",
             bullets(losses(results)) or "Nowhere in this run.\n",
             "## Agreement\n",
@@ -302,6 +310,16 @@ def tile_rows(figures: dict[str, float]) -> Iterator[list[str]]:
     for what, value in figures.items():
         if what not in ("ratio", "coordinator"):
             yield [what, seconds(value)]
+
+
+def connect_rows(connect: dict[str, float]) -> Iterator[list[str]]:
+    for text, value in connect.items():
+        if text.endswith("ratio"):
+            yield [text, f"{value:.2f}"]
+        elif text.endswith("bytes a point"):
+            yield [text, f"{value:.0f}"]
+        else:
+            yield [text, seconds(value)]
 
 
 def limit_rows(results: Results, limits: dict[str, float]) -> Iterator[list[str]]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from .data import CRUST_EDGES, DISTRIBUTIONS, HOSTILE
 from .measure import Result
-from .results import AFTER_CRUST, NEARLY_DEGENERATE, SMALL_CALLS, TILES, Results
+from .results import AFTER_CRUST, CONNECT, NEARLY_DEGENERATE, SMALL_CALLS, TILES, Results
 from .rivals import CGAL_CRUST, CGAL_DELAUNAY, CRUST, CRUST_2, OURS
 
 MILLION = 10**6
@@ -69,6 +69,7 @@ def targets(results: Results) -> Iterator[Target]:
         largest(results.seconds(NEARLY_DEGENERATE).values()),
     )
     yield from of_tiles(results.seconds(TILES))
+    yield from connect_targets(results.seconds(CONNECT))
 
 
 def of_tiles(figures: dict[str, float]) -> Iterator[Target]:
@@ -88,6 +89,21 @@ def of_few(results: Results) -> Iterator[Target]:
         yield Target(text, 1, measured)
     measured = results.seconds(SMALL_CALLS).get("groups")
     yield Target("crusts of 10,000 groups of 100 points / one of all points", 2, measured)
+
+
+def connect_targets(connect: dict[str, float]) -> Iterator[Target]:
+    """Yield the targets of `connect`."""
+    for distribution, bound in (("curves", 4), ("uniform", 8)):
+        text = f"connect of 10⁶ points, {distribution}: / their crust, one thread"
+        yield Target(text, bound, connect.get(f"{distribution}, ratio"))
+    bytes_a_point = (connect.get(f"{name}, bytes a point") for name in ("curves", "uniform"))
+    yield Target(
+        "connect: peak memory over the input", 400, largest(bytes_a_point), " bytes a point"
+    )
+    small = connect.get("10 points, connect")
+    yield Target("connect of 10 points", 60, small and small * 1e6, " µs")
+    text = "connect of a circle of 10⁵ points with its center: / the circle"
+    yield Target(text, 2, connect.get("circle and center, ratio"))
 
 
 def growth(results: Results, distributions: Iterable[str], n: int) -> float | None:

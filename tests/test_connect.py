@@ -156,3 +156,18 @@ def test_dense_samples_give_the_crust(seed: int) -> None:
     curve = cl.shapes.trefoil(int(rng.integers(2, 6)), rng.uniform(0.05, 0.4))
     points = cl.r_sample(curve, rng.uniform(0.1, 0.25), seed=seed).points
     assert cl.connect(points).tolist() == cl.crust(points).tolist()
+
+
+def test_samples_that_thin_out_gradually_are_no_outliers() -> None:
+    steps = np.concatenate([np.full(40, 0.02), 0.02 * 1.55 ** np.arange(1, 9)])
+    x = np.concatenate([[0], np.cumsum(np.concatenate([steps, steps[::-1]]))])
+    x -= x[-1] / 2
+    assert shape(np.stack([x, x**2 / x[-1] / 4], axis=1)) == [("line", len(x))]
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_samples_left_out_at_random_leave_no_gap(seed: int) -> None:
+    angle = 2 * np.pi * np.arange(300) / 300
+    angle = angle[np.random.default_rng(seed).random(300) > 0.5]
+    ellipse = np.stack([2 * np.cos(angle), np.sin(angle)], axis=1)
+    assert shape(ellipse) == [("ring", len(ellipse))]

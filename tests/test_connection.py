@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 import crustline as cl
 from crustline.cli import commands
+from crustline.projection import projected
 
 Array = np.ndarray
 
@@ -100,6 +101,15 @@ def test_a_coarse_ring_among_outliers_is_no_row_of_outliers(count: int) -> None:
 def test_only_connect_says_how_sure_it_is() -> None:
     with pytest.raises(cl.InputError, match="only connect"):
         _ = cl.Reconstruction(circle(8), cl.crust).connection
+
+
+def test_projected_connect_says_how_sure_it_is() -> None:
+    pytest.importorskip("pyproj")
+    places = cl.Points(circle(40) * [2, 1] + [10, 60], crs="EPSG:4326")
+    made = cl.Reconstruction(places, projected(cl.connect))
+    assert made.connection.points == places
+    assert made.edges.tolist() == made.connection.edges.tolist()
+    assert made.connection.whole > 0.9
 
 
 LAWS: dict[str, Callable[[Array], Array]] = {

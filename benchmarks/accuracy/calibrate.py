@@ -18,12 +18,12 @@ from .shapeless import shapeless
 
 Array = np.ndarray
 
-#: Cases of each family that are fitted, and as many others of the same half that are looked at.
-EACH = 120
+#: Cases of each family: every other one is fitted first and judged by the rest, then all are.
+EACH = 70
 #: The weight of the edges of shapeless points, all of which count as wrong, relative to all others.
-SHAPELESS = 0.15
+SHAPELESS = 0.1
 #: The same of the sets of shapeless points as answers.
-WHOLE = 0.05
+WHOLE = 0.02
 #: The confidence of an edge of the theorem.
 PROVEN = 0.999
 #: The variance of the weights before anything is known.
@@ -119,15 +119,9 @@ def calibration_error(confidence: Array, right: Array, bins: int = 10) -> float:
     return float(sum(gaps) / max(1, len(right)))
 
 
-def main() -> None:
-    """Fit, print the weights, and how well they do on other cases of the same half."""
-    all_cases = cases("tuned", EACH)
-    number = [int(case.name.split()[-1]) for case in all_cases]
-    judged = [judge(case) for case in all_cases]
-    train = [each for each, k in zip(judged, number, strict=True) if k % 2 == 0]
-    test = [each for each, k in zip(judged, number, strict=True) if k % 2]
-    features, right = edges_of(train)
-    clouds = [judge(case) for case in shapeless(0)]
+def fitted(judged: list[Judged], clouds: list[Judged]) -> tuple[Array, Array]:
+    """Return the weights for edges and those for answers."""
+    features, right = edges_of(judged)
     none, _ = edges_of(clouds)
     # Each set of shapeless points weighs the same, however many it has.
     alike = np.concatenate(
@@ -136,14 +130,23 @@ def main() -> None:
     weight = np.concatenate([np.ones(len(right)), alike * SHAPELESS * len(right) / alike.sum()])
     x = np.concatenate([features, none])
     edge = fit(x, np.concatenate([right, np.zeros(len(none))]), weight)
-    rows = [_described(each, edge) for each in (*train, *clouds)]
-    exact = np.array([each.exact for each in train] + [False] * len(clouds), float)
+    rows = [_described(each, edge) for each in (*judged, *clouds)]
+    exact = np.array([each.exact for each in judged] + [False] * len(clouds), float)
     weight = np.concatenate(
-        [np.ones(len(train)), np.full(len(clouds), WHOLE * len(train) / len(clouds))]
+        [np.ones(len(judged)), np.full(len(clouds), WHOLE * len(judged) / len(clouds))]
     )
-    whole = fit(np.array(rows), exact, weight)
-    for name, weights in (("EDGE", edge), ("ANSWER", whole)):
-        print(name, ", ".join(f"{value:.4}" for value in weights))
+    return edge, fit(np.array(rows), exact, weight)
+
+
+def main() -> None:
+    """Fit, print the weights, and how well those of one half of the cases do on the other."""
+    all_cases = cases("tuned", EACH)
+    number = [int(case.name.split()[-1]) for case in all_cases]
+    judged = [judge(case) for case in all_cases]
+    clouds = [judge(case) for case in shapeless(0)]
+    train = [each for each, k in zip(judged, number, strict=True) if k % 2 == 0]
+    test = [each for each, k in zip(judged, number, strict=True) if k % 2]
+    edge, whole = fitted(train, clouds)
     features, right = edges_of(test)
     print("edges of others:", calibration_error(logistic(features, edge), right))
     rows = [_described(each, edge) for each in test]
@@ -152,6 +155,8 @@ def main() -> None:
     for case in map(judge, shapeless(1)):
         p = logistic(case.features[~np.isnan(case.features[:, 0])], edge)
         print(f"{case.case.name}: {np.mean(p >= 0.9):.1%} of {len(p)} edges at 0.9 or more")
+    for name, weights in zip(("EDGE", "ANSWER"), fitted(judged, clouds), strict=True):
+        print(name, ", ".join(f"{value:.4}" for value in weights))
 
 
 if __name__ == "__main__":

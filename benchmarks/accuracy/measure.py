@@ -11,7 +11,7 @@ import numpy as np
 import crustline as cl
 from crustline.methods import METHODS, parameters_of
 
-from .families import Case
+from .families import JUNCTIONS, Case
 
 
 @dataclass(frozen=True)
@@ -59,11 +59,15 @@ def score(case: Case, edges: np.ndarray) -> Score:
 
 
 def scores(cases: Iterable[Case], names: Iterable[str]) -> dict[str, list[Score]]:
-    """Return the scores of methods on cases; each case is triangulated once."""
+    """Return the scores of methods on cases; each case is triangulated once.
+
+    Where curves meet, `connect` is asked for junctions.
+    """
     methods = parameter_free()
     made: dict[str, list[Score]] = {name: [] for name in names}
     for case in cases:
         delaunay = cl.Delaunay(case.points)
         for name, own in made.items():
-            own.append(score(case, methods[name](delaunay)))
+            meets = name == "connect" and case.group in JUNCTIONS
+            own.append(score(case, methods[name](delaunay, **{"junctions": True} if meets else {})))
     return made

@@ -19,7 +19,7 @@ def reason(score: Score) -> str:
     if missing - candidates:
         return "the truth is not in the Delaunay triangulation"
     if degree.max() > 2:
-        return "a junction, which no point has by default"
+        return "curves meet in another way there"
     if any(degree[row] == 0 for edge in extra for row in edge):
         return "outliers were joined"
     if not extra:

@@ -127,6 +127,16 @@ def near_tolerance(points: ArrayLike | Delaunay) -> float | None:
         lengths = np.hypot(*(xy[edges[:, 0]] - xy[edges[:, 1]]).T)
     if not len(edges) or lengths.min() > NEAR * lengths.max():
         return None
+    # Nearest points are Delaunay neighbors, so only points with an edge as short can be near.
+    may_be_near = np.zeros(len(xy), bool)
+    may_be_near[edges[lengths <= NEAR * lengths.max()]] = True
+    some = may_be_near[edges].any(axis=1)
+    rows, ends = np.unique(edges[some], return_inverse=True)
+    return _tolerance_of(xy[rows], ends.reshape(-1, 2), lengths[some])
+
+
+def _tolerance_of(xy: np.ndarray, edges: IntArray, lengths: FloatArray) -> float | None:
+    """Return the tolerance that takes all groups of near points, given all edges at them."""
     short = lengths <= NEAR * _length_after_jump(edges, lengths, len(xy))[edges].min(axis=1)
     group = _components(len(xy), edges[short])
     within = group[edges[:, 0]] == group[edges[:, 1]]

@@ -97,7 +97,21 @@ def projected(method: Callable[..., Any], crs: str = "auto") -> Callable[..., An
     def select(points: Any, **parameters: Any) -> Any:
         return method(project(points, crs), **parameters)
 
+    vars(select)["projected_to"] = crs
     return select
+
+
+def unprojected(method: Callable[..., Any]) -> tuple[Callable[..., Any], str | None]:
+    """Return the method that `projected` was given, and the CRS; any other one as it is, and None.
+
+    Examples
+    --------
+    >>> from crustline.methods import crust
+    >>> unprojected(projected(crust)) == (crust, "auto"), unprojected(crust) == (crust, None)
+    (True, True)
+    """
+    crs: str | None = getattr(method, "projected_to", None)
+    return (method, None) if crs is None else (method.__wrapped__, crs)  # type: ignore[attr-defined]
 
 
 def to_longitude_latitude(points: Points) -> Points:

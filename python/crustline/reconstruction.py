@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property, partial
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -26,6 +27,7 @@ from crustline.medial_axis import MedialAxis, medial_axis
 from crustline.merge import Merged, merge
 from crustline.methods import as_method, connect, name_of
 from crustline.points import Points
+from crustline.projection import project, unprojected
 from crustline.scalars import as_flag, as_length
 
 if TYPE_CHECKING:
@@ -182,12 +184,14 @@ class Reconstruction:
     @cached_property
     def connection(self) -> Connection:
         """How sure each edge is, and why they are not those of the crust; of `connect` only."""
-        if self.method is not connect or self.fit:
+        method, crs = unprojected(self.method)
+        if method is not connect or self.fit:
             raise InputError(
                 f"only connect, without fitting, says how sure it is, and this is a reconstruction "
                 f"by {name_of(self.method)}: leave the rest away"
             )
-        found = connection(self.delaunay, **self.parameters)
+        where = self.delaunay if crs is None else self.delaunay.alike(project(self.delaunay, crs))
+        found = replace(connection(where, **self.parameters), points=self.points)
         return found if self._merged is None else found.renamed(self.points, self._merged.stands)
 
     @cached_property

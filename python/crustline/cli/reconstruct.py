@@ -83,8 +83,9 @@ def reconstruct(
 def _is_sure(made: Reconstruction) -> bool:
     """Whether the method is the one that says how sure it is."""
     from crustline.methods import connect
+    from crustline.projection import unprojected
 
-    return made.method is connect and not made.fit
+    return unprojected(made.method)[0] is connect and not made.fit
 
 
 def _warn_of_near(source: Source, made: Reconstruction) -> None:

@@ -110,22 +110,12 @@ pub const GAP_SURE: f32 = 10.0;
 pub const GAP_SPREAD: f32 = 1.5;
 /// A step is no gap if random samples have one as long in e to this power windows like that.
 pub const GAP_RARE: f64 = 7.0;
-/// The most sweeps of messages a round: a message goes as many edges far.
-pub const SWEEPS: usize = 8;
+/// The most sweeps of messages in each round: a message goes as many edges far. The first is to tell how rough curves are.
+pub const SWEEPS: [usize; 2] = [5, 8];
 /// How much of its change a message makes: less than all, so that none swings to and fro.
 pub const DAMPING: f32 = 0.6;
 /// Messages that change by no more than this have converged; an end costs 1.
 pub const CONVERGED: f32 = 3e-2;
-/// Edges disbelieved by more than this are not tried once more after decoding …
-pub const MOST_DISBELIEF: f32 = 0.5;
-/// … nor is what has become dearer by more than this on the way: an end for the moment.
-pub const MOST_RISE: f64 = 1.0;
-/// The edges of the longest change that is tried: three come in, two go out.
-pub const LONGEST_CHANGE: usize = 5;
-/// What a change saves at least, far above rounding.
-pub const LEAST_GAIN: f64 = 1e-3;
-/// How often changes are looked for: one makes room for others.
-pub const ROUNDS: usize = 4;
 /// The crust leads over a gap if it turns by no more than this at each point: 60°, in half turns.
 pub const BRIDGE_TURN: f32 = 1.0 / 3.0;
 /// Components of fewer points than this are dropped where points are isolated: outliers pair up.

@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::progress::Progress;
 
 /// How many numbers describe an edge.
-pub const FEATURES: usize = 20;
+pub const FEATURES: usize = 21;
 /// Beliefs beyond this, in ends, are as good as certain.
 const SURE: f64 = 4.0;
 
@@ -35,6 +35,9 @@ pub struct Surroundings<'a> {
     beside: Vec<f64>,
     /// The number of points of the component.
     sizes: Vec<u32>,
+    /// The mean of the dimension along the component: where curves run side by side here and there it is small, in a cloud
+    /// it is not.
+    throughout: Vec<f64>,
     /// The share of the points that are isolated.
     isolated: f64,
 }
@@ -60,8 +63,8 @@ impl<'a> Surroundings<'a> {
         let beside = beside(delaunay, found, curves, progress)?;
         let alone = (0..candidates.vertices()).filter(|&v| curves.of(v as u32).is_empty()).count();
         let isolated = alone as f64 / candidates.vertices().max(1) as f64;
-        let sizes = sizes(candidates.vertices(), curves);
-        Ok(Self { found, curves, steps, dimension, rivals, beside, sizes, isolated })
+        let (sizes, throughout) = along_components(&dimension, curves);
+        Ok(Self { found, curves, steps, dimension, rivals, beside, sizes, throughout, isolated })
     }
 
     /// What describes the edge between two vertices; `None` if no message was sent about it.
@@ -108,6 +111,7 @@ impl<'a> Surroundings<'a> {
             tight,
             tight * (dimension - DENSE).max(0.0),
             f64::from(clearance.abs() < TIED),
+            dimension * self.throughout[a],
         ])
     }
 
@@ -173,10 +177,10 @@ pub fn half_edge(candidates: &Candidates, from: usize, to: usize) -> Option<usiz
     candidates.from(from).find(|&e| candidates.ends[e] as usize == to)
 }
 
-/// For each vertex the number of those that curves join to it.
-fn sizes(vertices: usize, curves: &Adjacency) -> Vec<u32> {
-    let mut sizes = vec![0; vertices];
-    for v in 0..vertices {
+/// For each vertex the number of those that curves join to it, and the mean of some values at them.
+fn along_components(values: &[f64], curves: &Adjacency) -> (Vec<u32>, Vec<f64>) {
+    let (mut sizes, mut means) = (vec![0; values.len()], vec![0.0; values.len()]);
+    for v in 0..values.len() {
         if sizes[v] == 0 {
             sizes[v] = 1;
             let mut found = vec![v];
@@ -190,12 +194,16 @@ fn sizes(vertices: usize, curves: &Adjacency) -> Vec<u32> {
                     }
                 }
             }
+            // In order, so that the sum does not depend on where it starts.
+            let mut own: Vec<f64> = found.iter().map(|&at| values[at]).collect();
+            own.sort_unstable_by(f64::total_cmp);
+            let mean = own.iter().sum::<f64>() / own.len() as f64;
             for &at in &found {
-                sizes[at] = found.len() as u32;
+                (sizes[at], means[at]) = (found.len() as u32, mean);
             }
         }
     }
-    sizes
+    (sizes, means)
 }
 
 /// What reasons ask for.

@@ -1,7 +1,7 @@
 //! What the messages found in two rounds; all later steps look at it.
 
 use super::candidates::Candidates;
-use super::constants::{Constants, HOPELESS};
+use super::constants::{Constants, HOPELESS, SWEEPS};
 use super::costs::{Costs, first_edge_costs};
 use super::decode::decode;
 use super::gaps::Gaps;
@@ -64,23 +64,23 @@ pub fn converge<'a>(
     }
     let turns = Turns::new(delaunay, &candidates);
     let mut sent = vec![0.0; candidates.ends.len()];
-    let mut round = |rough: &Roughness| {
+    let mut round = |sweeps: usize, rough: &Roughness| {
         let mut costs = Costs::new(&candidates, &spacing, rough, constants);
         known.price(&candidates, &mut costs);
         let factors =
             Factors { candidates: &candidates, spacing: &spacing, turns: &turns, costs: &costs };
-        factors.converge(&mut sent, progress)?;
+        factors.converge(sweeps, &mut sent, progress)?;
         let beliefs = factors.beliefs(&sent);
         let selection = decode(&candidates, &beliefs, |v| known.most(v));
         Ok((costs, beliefs, selection))
     };
-    let (_, _, first) = round(&Roughness::default())?;
+    let (_, _, first) = round(SWEEPS[0], &Roughness::default())?;
     let mut rough = Roughness::new(&candidates, &spacing, &turns, &first, constants);
     if known.closed {
         // A gap is no end where there are none.
         rough.gaps = Gaps::default();
     }
-    let (costs, beliefs, selection) = round(&rough)?;
+    let (costs, beliefs, selection) = round(SWEEPS[1], &rough)?;
     Ok(Found { known, candidates, spacing, turns, rough, costs, beliefs, selection })
 }
 

@@ -74,9 +74,11 @@ fn cannot(found: &Found<'_>, v: usize, degree: u8) -> Error {
                 "ends: no edge is left for row {row}: allow more edges, or leave it out of ends"
             )
         }
-        0 => format!("every_point: no edge is left for row {row}: allow more edges"),
+        0 => format!(
+            "every_point: no way to join row {row} was found, though there may be one: allow more edges, or keep= one there"
+        ),
         _ => format!(
-            "closed: the curve that ends at row {row} cannot be closed with the edges that are allowed"
+            "closed: no way to close the curve that ends at row {row} was found, though there may be one: allow more edges, or keep= one there"
         ),
     };
     Error::Argument { message }

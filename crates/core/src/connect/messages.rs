@@ -4,7 +4,7 @@
 //! (J. Pearl, "Probabilistic Reasoning in Intelligent Systems", 1988). All are sent at once, and damped.
 
 use super::candidates::{Candidates, GRAIN, each};
-use super::constants::{CONVERGED, DAMPING, MOST_PAIRED, SWEEPS};
+use super::constants::{CONVERGED, DAMPING, MOST_PAIRED};
 use super::costs::Costs;
 use super::geometry::{Spacing, Turns};
 use crate::error::Result;
@@ -36,19 +36,19 @@ struct Sweep<'a> {
 }
 
 impl Factors<'_> {
-    /// Send messages until none changes any more, starting from those in `sent`.
+    /// Send messages until none changes any more, in at most so many sweeps, starting from those in `sent`.
     ///
     /// Only vertices that a changed message reaches, and those whose own still move, send again.
     ///
     /// # Errors
     /// A cancelled `progress`.
-    pub fn converge(&self, sent: &mut Vec<f32>, progress: &Progress) -> Result<()> {
+    pub fn converge(&self, sweeps: usize, sent: &mut Vec<f32>, progress: &Progress) -> Result<()> {
         let flags = |is_active: bool| -> Vec<AtomicBool> {
             (0..self.candidates.vertices()).map(|_| AtomicBool::new(is_active)).collect()
         };
         let (mut active, mut later) = (flags(true), flags(false));
         let mut fresh = sent.clone();
-        for k in 0..SWEEPS {
+        for k in 0..sweeps {
             // Nothing swings yet in the first sweep.
             let share = if k == 0 { 1.0 } else { DAMPING };
             let sweep = Sweep { sent, active: &active, later: &later, share };

@@ -19,7 +19,6 @@ mod gaps;
 mod geometry;
 mod guard;
 mod hints;
-mod improve;
 mod junctions;
 mod mend;
 mod messages;
@@ -81,7 +80,6 @@ fn find<'a>(
     progress.enter(Stage::Select, delaunay.points().len())?;
     let mut found = converge(delaunay, constants, hints, progress)?;
     let mut selection = std::mem::take(&mut found.selection);
-    improve::improve(&found, &mut selection);
     let crust = crust(delaunay, progress)?;
     bridge::bridge(delaunay, &found, &crust, constants, &mut selection);
     if !found.known.every_point {
