@@ -8,7 +8,7 @@ use super::features::FEATURES;
 /// What each of the numbers that describe an edge adds.
 const EDGE: [f64; FEATURES] = [
     2.486, -2.558, -0.09855, -2.979, 1.381, 0.3356, -1.323, 2.621, 1.857, -4.33, -6.363, 3.082,
-    0.003623, -3.41, 2.583, 1.976, 0.1367, 0.783, 1.953, -11.19, -9.703,
+    0.0036, -3.41, 2.583, 1.976, 0.1367, 0.783, 1.953, -11.19, -9.703,
 ];
 /// What those that describe an answer add: 1, the logarithms of the expected number of wrong edges and of the doubt in the
 /// worst edge, the share of isolated points, the logarithm of the number of edges, that of the mean doubt, and its square.
