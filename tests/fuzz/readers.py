@@ -86,6 +86,11 @@ def readings_of(key: str) -> list[Callable[[bytes], Any]]:
         return [partial(_with_siblings, key)]
     if key in clouds.KEYS:
         return _in_space("laz" if key == "copc" else key)
+    if key in ("world", "axes"):
+        return [partial(_with_a_picture, key)]
+    if key == "image":
+        options: list[dict[str, Any]] = [{}, {"mask": True}, {"lines": True}, {"color": "#e62"}]
+        return [partial(read, format=key, **each) for each in options]
     name = None if key == "packed" else key
     chosen: list[Callable[..., Any]] = [read]
     if name is None or FORMATS[name].can("read_curves"):
@@ -111,6 +116,17 @@ def _svg(content: bytes) -> Any:
         file.write(content)
         file.flush()
         return bezier_path(file.name)
+
+
+def _with_a_picture(key: str, content: bytes) -> Any:
+    """Read a sound picture that is placed by a world file, or by places on axes."""
+    picture = seeds()["image"][0]
+    if key == "axes":
+        return read(picture, axes=content.decode("latin-1"))
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder, "a.png").write_bytes(picture)
+        Path(folder, "a.pgw").write_bytes(content)
+        return read(Path(folder, "a.png"))
 
 
 def _with_siblings(part: str, content: bytes) -> Any:

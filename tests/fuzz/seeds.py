@@ -88,7 +88,7 @@ PLAIN: dict[str, list[bytes]] = {
 WRITTEN = ("gpkg", "fgb", "kml", "gpx", "parquet", "feather", "dxf")
 SHAPEFILE = ("shp", "shx", "dbf", "prj")
 #: All that `seeds` may have.
-KEYS = (*PLAIN, *WRITTEN, *SHAPEFILE, "excel", *clouds.KEYS)
+KEYS = (*PLAIN, *WRITTEN, *SHAPEFILE, "excel", "image", "world", "axes", *clouds.KEYS)
 
 
 def _things() -> list[cl.Points | cl.Curves]:
@@ -167,6 +167,45 @@ def _drawing() -> bytes:
     return "\n".join(tags).encode()
 
 
+def _pictures() -> dict[str, list[bytes]]:
+    """Return pictures of every kind, a world file, and places on axes."""
+    import rasterio
+    from PIL import Image
+
+    down, right = np.mgrid[0:20, 0:24]
+    gray = np.where(np.hypot(down - 9.3, right - 11.2) < 6.5, 230, 20).astype(np.uint8)
+    image = Image.fromarray(gray)
+    color = Image.merge("RGB", [image, image, Image.fromarray(gray // 2)])
+    found = []
+    for kind, picture, options in (
+        ("PNG", image, {}), ("PNG", color.convert("P"), {}), ("PNG", color.convert("RGBA"), {}),
+        ("JPEG", color, {}), ("GIF", image, {}), ("BMP", color, {}), ("PPM", image, {}),
+        ("WEBP", color, {"lossless": True}), ("WEBP", color, {}), ("PPM", image.convert("1"), {}),
+        ("TIFF", image, {}), ("TIFF", color, {"compression": "tiff_lzw"}),
+    ):  # fmt: skip
+        stream = io.BytesIO()
+        picture.save(stream, kind, **options)
+        found.append(stream.getvalue())
+    place = rasterio.Affine(0.5, 0, 400_000, 0, -0.5, 5_000_000)
+    profile = {"driver": "GTiff", "width": 24, "height": 20, "count": 2, "dtype": "uint8"}
+    profile |= {"alpha": "yes"}
+    for more in ({"tiled": True, "blockxsize": 16, "blockysize": 16}, {"nodata": 20}):
+        with rasterio.MemoryFile() as file:
+            with file.open(**profile, **more, transform=place, crs="EPSG:25832") as data:
+                data.write(np.stack([gray, 255 - gray]))
+                data.colorinterp = [
+                    rasterio.enums.ColorInterp.gray,
+                    rasterio.enums.ColorInterp.alpha,
+                ]
+            found.append(file.read())
+    found.append(b"P2 6 5 9\n" + b"0 0 0 0 0 0 " + b"0 9 9 9 9 0 " * 3 + b"0 0 0 0 0 0\n")
+    return {
+        "image": found,
+        "world": [b"0.5\n0.0\n0.0\n-0.5\n400000.25\n4999999.75\n"],
+        "axes": [b"2,17=0,1 21,3=10,1e4 log=y", b"2,17=0,;21,17=10, 2,17=,1 2,3=,5"],
+    }
+
+
 @cache
 def seeds() -> dict[str, list[bytes]]:
     """Return sound files by what they are: a format, "packed", or a part of a Shapefile."""
@@ -182,6 +221,7 @@ def seeds() -> dict[str, list[bytes]]:
         for key, files in _arrow().items():
             found[key] = found[key] + files
         found["excel"] = [_workbook()]
+        found |= _pictures()
     except ImportError:
         pass
     found |= clouds.seeds()

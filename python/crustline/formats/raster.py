@@ -27,6 +27,8 @@ _PILLOW = {
     b"\x89PNG\r\n": "PNG", b"\xff\xd8\xff": "JPEG", b"GIF8": "GIF", b"BM": "BMP",
     b"P1": "PPM", b"P2": "PPM", b"P3": "PPM", b"P4": "PPM", b"P5": "PPM", b"P6": "PPM",
 }  # fmt: skip
+#: Pixels to a byte: only what shows nothing is packed into less.
+_MOST_PACKED = 4000
 #: Modes of Pillow that are bands as they stand; others are converted to colors.
 _PLAIN = ("1", "L", "LA", "RGB", "RGBA", "I", "F", "I;16", "I;16B", "I;16L", "I;16N")
 
@@ -87,14 +89,24 @@ def _by_pillow(source: Source, turned: bool) -> npt.NDArray[Any]:
         except UnidentifiedImageError:
             raise source.error(f"it begins as {kind} and is damaged: save it again") from None
         with opened as picture:
-            if picture.width * picture.height > MOST_PIXELS:
-                raise source.error(TOO_LARGE)
+            _refuse_size(source, picture.width, picture.height, len(content))
             source.note(
                 "picture", f"{picture.width} x {picture.height} pixels, {kind}, {picture.mode}"
             )
             plain = picture if _is_plain(picture) else picture.convert(_colors_of(picture))
             array = np.asarray(ImageOps.exif_transpose(plain) if turned else plain)
     return array.reshape(*array.shape[:2], -1)
+
+
+def _refuse_size(source: Source, width: int, height: int, size: int | None) -> None:
+    """Refuse a picture that is too large, and one that says so and cannot be."""
+    if width * height > MOST_PIXELS:
+        raise source.error(TOO_LARGE)
+    if size is not None and width * height > size * _MOST_PACKED:
+        raise source.error(
+            f"it says that it has {width:,} x {height:,} pixels, which {size:,} bytes do not "
+            "hold: it is empty or damaged, save it again"
+        )
 
 
 def _is_plain(picture: Any) -> bool:
@@ -124,8 +136,7 @@ def _refuse_band(source: Source, band: int, count: int) -> None:
 
 def _by_rasterio(source: Source, band: int | None, pixels: bool) -> Raster:
     with _opened(source) as data:
-        if data.width * data.height > MOST_PIXELS:
-            raise source.error(TOO_LARGE)
+        _refuse_size(source, data.width, data.height, source.size)
         source.note("picture", f"TIFF, {data.width} x {data.height}, bands: {data.count}")
         placement = None if pixels else _placement_of(source, data)
         return Raster(_bands_of(source, data, band), placement)
