@@ -127,6 +127,53 @@ def test_a_palette_and_values_without_data(tmp_path):
     assert_is_circle(cl.read(path, mask=True), 0.6)
 
 
+def chunked(*chunks: tuple[bytes, bytes]) -> bytes:
+    """A PNG as another program would put it together."""
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        for kind, data in chunks
+    )
+
+
+FLAT = (GRAY > 127).astype(np.uint8)
+ROWS = b"".join(b"\0" + row.tobytes() for row in GRAY)
+HEADER = struct.pack(">IIBBBBB", 128, 128, 8, 0, 0, 0, 0)
+FOREIGN = {
+    "many IDAT chunks and a text": chunked(
+        (b"IHDR", HEADER), (b"tEXt", b"Comment\0by hand"),
+        *((b"IDAT", part) for part in (zlib.compress(ROWS)[:50], zlib.compress(ROWS)[50:])),
+        (b"IEND", b""),
+    ),
+    "bytes after the end": packed(GRAY, "PNG") + b"trailing",
+    "progressive JPEG": packed(GRAY, "JPEG", quality=95, progressive=True),
+    "JPEG with a comment": packed(GRAY, "JPEG", quality=95, comment=b"x" * 9000),
+    "text PGM with comments": b"P2 # c\n128 128\n# max\n255\n" + b"\n".join(
+        " ".join(map(str, row)).encode() for row in GRAY.tolist()
+    ),
+    "PBM": b"P4\n128 128\n" + np.packbits(1 - FLAT, axis=1).tobytes(),
+    "animated GIF": packed(GRAY, "GIF", save_all=True, append_images=[Image.new("L", (128, 128))]),
+    "TIFF with JPEG in it": packed(GRAY, "TIFF", compression="jpeg", quality=95),
+    "TIFF of one bit by CCITT": packed(
+        Image.fromarray(GRAY > 127), "TIFF", compression="group4"
+    ),
+    "big-endian TIFF": b"MM\0*" + struct.pack(">I", 8) + struct.pack(">H", 8) + b"".join(
+        struct.pack(">HHI", tag, kind, 1) + value
+        for tag, kind, value in (
+            (256, 4, struct.pack(">I", 128)), (257, 4, struct.pack(">I", 128)),
+            (258, 3, struct.pack(">HH", 8, 0)), (259, 3, struct.pack(">HH", 1, 0)),
+            (262, 3, struct.pack(">HH", 1, 0)), (273, 4, struct.pack(">I", 110)),
+            (278, 4, struct.pack(">I", 128)), (279, 4, struct.pack(">I", 128 * 128)),
+        )
+    ) + bytes(4) + GRAY.tobytes(),
+    "BMP of a palette": packed(Image.fromarray(GRAY).convert("P"), "BMP"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", FOREIGN)
+def test_a_foreign_picture_is_read(name):
+    assert_is_circle(cl.read(FOREIGN[name]), 0.6)
+
+
 # Places
 
 
@@ -190,11 +237,7 @@ def test_axes_give_data_coordinates():
 
 def png_of_size(width: int, height: int) -> bytes:
     header = struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)
-    chunks = [(b"IHDR", header), (b"IDAT", zlib.compress(bytes(1000))), (b"IEND", b"")]
-    return b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-        for kind, data in chunks
-    )
+    return chunked((b"IHDR", header), (b"IDAT", zlib.compress(bytes(1000))), (b"IEND", b""))
 
 
 @pytest.mark.parametrize(
