@@ -395,3 +395,21 @@ def test_no_curves_can_be_oriented():
 def test_reconstruct_orients():
     points = square()
     assert reconstruct(points, orient="cw", start="north")[0].indices.tolist() == [2, 1, 0, 3]
+
+
+def test_rings_across_the_180th_meridian_nest_in_degrees():
+    """In the plane of degrees the outer one was a band around the globe, and its lakes outside."""
+
+    def box(west, east, south, north):
+        return [(west, south), (east, south), (east, north), (west, north)]
+
+    rings = [box(170, -170, -20, -10), box(175, 178, -16, -14), box(179, -179, -16, -14)]
+    points = Points(np.concatenate(rings), crs="EPSG:4326")
+    edges = [(4 * k + i, 4 * k + (i + 1) % 4) for k in range(3) for i in range(4)]
+    (polygon,) = trace(points, edges).polygons()
+    assert sorted(polygon.shell) == [0, 1, 2, 3]
+    assert [sorted(hole) for hole in polygon.holes] == [[4, 5, 6, 7], [8, 9, 10, 11]]
+    antarctica = [(x, -70) for x in range(-180, 180, 30)] + box(-10, 10, -80, -75)
+    edges = [(i, (i + 1) % 12) for i in range(12)] + [(12 + i, 12 + (i + 1) % 4) for i in range(4)]
+    (polygon,) = trace(Points(antarctica, crs="OGC:CRS84"), edges).polygons()
+    assert len(polygon.holes) == 1

@@ -16,7 +16,7 @@ from crustline.arrays import BoolArray, FloatArray, IntArray, as_edges, read_onl
 from crustline.delaunay import Delaunay, points_and_how
 from crustline.orientation import arranged, starts_of, turns_of
 from crustline.points import Points
-from crustline.projection import project
+from crustline.projection import is_geographic, project, stereographic
 from crustline.records import Record
 from crustline.scalars import as_flag
 
@@ -229,8 +229,10 @@ class Curves(Record, Sequence[Curve]):
         Exact where edges meet at points only, as those of every method do: a ring lies in another
         if a point of its own does, which is decided by signs without rounding. Rings that cross
         each other have no nesting: there a ring counts as inside if its first point off the others
-        is, and a hole without a shell around it becomes a shell. Linear time, and that of the
-        edges that a ray from each ring crosses.
+        is, and a hole without a shell around it becomes a shell. If the CRS of the points is one of
+        longitudes and latitudes and an edge crosses the 180th meridian, rings are nested on the
+        stereographic map about the middle of the points, in floating point. Linear time, and that
+        of the edges that a ray from each ring crosses.
         """
         shells = self._shells.tolist()
         holes: dict[int, list[IntArray]] = {k: [] for k, shell in enumerate(shells) if shell == k}
@@ -244,7 +246,11 @@ class Curves(Record, Sequence[Curve]):
         """For each ring its shell, itself if it is one; -1 for a polyline."""
         if self.shells is not None:
             return self.shells
-        shells: IntArray = _core.shells(self.points.xy, self.indices, self.offsets, self.closed)
+        xy = self.points.xy
+        across = np.abs(np.diff(xy[self.edges, 0], axis=1)) > 180
+        if across.any() and is_geographic(self.points):
+            xy = np.ascontiguousarray(stereographic(xy))
+        shells: IntArray = _core.shells(xy, self.indices, self.offsets, self.closed)
         return shells
 
     def oriented(

@@ -14,7 +14,14 @@ from crustline.delaunay import Delaunay, points_and_how
 from crustline.errors import InputError, MissingExtraError, require, shown
 from crustline.points import Points, as_crs
 
-__all__ = ["is_geographic", "looks_geographic", "project", "projected", "to_longitude_latitude"]
+__all__ = [
+    "is_geographic",
+    "looks_geographic",
+    "project",
+    "projected",
+    "stereographic",
+    "to_longitude_latitude",
+]
 
 _LONGITUDE_LATITUDE = "OGC:CRS84"
 _LONGITUDES, _LATITUDES = {"lon", "lng", "long", "longitude"}, {"lat", "latitude"}
@@ -137,6 +144,18 @@ def looks_geographic(points: Points) -> bool:
     called = bool(words & _LONGITUDES) and bool(words & _LATITUDES)
     within = bool((np.abs(points.xy) <= (360, 90)).all())
     return points.crs is None and called and within
+
+
+def stereographic(degrees: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return longitudes and latitudes on the stereographic map of a sphere about their middle."""
+    middle, parallel = np.radians(_middle(degrees))
+    longitude, latitude = np.radians(degrees).T
+    east = np.cos(latitude) * np.sin(longitude - middle)
+    away = np.cos(latitude) * np.cos(longitude - middle)
+    north = np.cos(parallel) * np.sin(latitude) - np.sin(parallel) * away
+    towards = np.sin(parallel) * np.sin(latitude) + np.cos(parallel) * away
+    scale = 2 / np.maximum(1 + towards, 1e-15)  # the point on the other side is infinitely far
+    return np.stack([scale * east, scale * north], axis=1)
 
 
 def _crs(name: str) -> Any:
