@@ -15,7 +15,7 @@ __all__ = ["MOST_PIXELS", "TOO_LARGE", "Bands", "Picture", "as_picture", "center
 
 Bands = npt.NDArray[np.float32]
 
-#: Pixels of a picture: it takes some fifty bytes for each.
+#: Pixels of a picture: it takes 12 to 62 bytes for each.
 MOST_PIXELS = 1 << 26
 #: What is wrong with a picture of more.
 TOO_LARGE = f"it has more than {MOST_PIXELS:,} pixels: cut out a part, or scale it down"
