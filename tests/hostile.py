@@ -16,6 +16,7 @@ import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -147,6 +148,9 @@ PATHS: list[Make] = [
     )
 ]
 
+TETRAHEDRON = SimpleNamespace(
+    vertices=np.vstack([np.zeros(3), np.eye(3)]), faces=[(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+)
 #: What fits a parameter, by its name; parameters with other names are numbers.
 FITTING: dict[str, list[Make]] = {
     "points": POINTS, "coordinates": POINTS, "extra": POINTS, "sites": POINTS, "places": POINTS,
@@ -173,7 +177,11 @@ FITTING: dict[str, list[Make]] = {
     "groups": [lambda: [0, 1] * 12, lambda: list("aabb"), lambda: np.arange(24) // 5],
     "source": [lambda: "M 1 0 C 1 1 -1 1 -1 0 C -1 -1 1 -1 1 0 Z"],
     "m": [lambda: 4, lambda: None], "n": [lambda: 4], "lobes": [lambda: 3],
-    "harmonics": [lambda: 3], "polygons": [lambda: True, lambda: False],
+    "body": [lambda: TETRAHEDRON, lambda: np.c_[RING, np.full(24, 0.5)]],
+    "planes": [lambda: "z=0.5", lambda: ["x=0.1", "1,1,1=0.2"]], "line": [lambda: "0,0,1,1"],
+    "thickness": [lambda: None, lambda: 2.0], "scale": [lambda: None, lambda: 0.1],
+    "where": [lambda: "inner", lambda: "outer"], "harmonics": [lambda: 3],
+    "polygons": [lambda: True, lambda: False],
 }  # fmt: skip
 
 FILES: list[Make] = [
@@ -270,7 +278,7 @@ def functions() -> dict[str, Callable[..., Any]]:
     return found
 
 
-def _on(make: Make, name: str, **arguments: Any) -> Any:
+def _on(make: Make, name: str, /, **arguments: Any) -> Any:
     return getattr(make(), name)(**arguments)
 
 

@@ -163,6 +163,7 @@ FOREIGN = {
 }  # fmt: skip
 
 
+@pytest.mark.filterwarnings("ignore:.*takes the first of 6 columns")
 @pytest.mark.parametrize("name", FOREIGN)
 def test_text_and_numbers_of_other_tools(name):
     key, content = FOREIGN[name]

@@ -8,7 +8,7 @@ from typing import BinaryIO
 
 import numpy as np
 
-from crustline.formats.laz_chunks import Packing, check_chunks
+from crustline.formats.laz_chunks import VARIABLE, Packing, check_chunks
 from crustline.formats.source import Source
 
 __all__ = ["LasHead", "check"]
@@ -18,8 +18,6 @@ _SIZES = {0: 227, 1: 227, 2: 227, 3: 235, 4: 375}
 _RECORDS = (20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67)
 _VLR, _EVLR = 54, 60
 _LASZIP, _COPC = b"laszip encoded", b"copc"
-#: A chunk of LAZ may hold as many points as it likes: then the table says how many.
-_VARIABLE = 0xFFFFFFFF
 #: A point that says nothing new takes next to no room: what one byte may unpack to, at the most.
 _DENSEST = 5000
 
@@ -159,7 +157,7 @@ def _table(file: BinaryIO, found: LasHead, chunk: int, size: int, source: Source
         raise source.error(f"its table of chunks is not in the file: {cut}")
     file.seek(table + 4)
     count = _number(file.read(4), "<I")
-    least = count if chunk == _VARIABLE else -(-found.points // max(chunk, 1))
+    least = count if chunk == VARIABLE else -(-found.points // max(chunk, 1))
     if count > size - table or count != least or chunk == 0:
         raise source.error(f"its table of {count:,} chunks does not fit the points: {cut}")
     if found.points > _DENSEST * (table - found.starts):

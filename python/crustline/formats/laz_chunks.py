@@ -13,9 +13,13 @@ from typing import BinaryIO
 
 from crustline.formats.source import Source
 
-__all__ = ["Packing", "check_chunks", "check_layers"]
+__all__ = ["VARIABLE", "Packing", "check_chunks", "check_layers"]
 
 _LAYERED = 3
+#: A chunk may hold as many points as it likes: then the table says how many.
+VARIABLE = 0xFFFFFFFF
+#: Bytes that a chunk may unpack to.
+_LARGEST = 1 << 28
 #: Layers of the parts of a point, by LASzip's numbers of them; extra bytes have one each.
 _LAYERS = {10: 9, 11: 1, 12: 2, 13: 1}
 _EXTRA_BYTES = 14
@@ -54,6 +58,8 @@ def check_chunks(file: BinaryIO, record: bytes, starts: int, end: int, source: S
     """Raise `FormatError` unless the table of chunks tells of what is between two places."""
     import lazrs
 
+    packing = Packing.of(record)
+    _check_sizes([] if packing.chunk == VARIABLE else [packing.chunk], packing, source)
     file.seek(starts)
     table = lazrs.read_chunk_table(file, lazrs.LazVlr(record))
     total = sum(size for _, size in table)
@@ -62,12 +68,24 @@ def check_chunks(file: BinaryIO, record: bytes, starts: int, end: int, source: S
             f"its table of chunks tells of {total:,} bytes, and {end - starts - 8:,} are there: "
             "it was cut off, or its table is wrong"
         )
+    if packing.chunk == VARIABLE:
+        _check_sizes((count for count, _ in table), packing, source)
     places, place = [], starts + 8
     for count, size in table:
         if count:
             places.append((place, size))
         place += size
-    check_layers(file, Packing.of(record), places, source)
+    check_layers(file, packing, places, source)
+
+
+def _check_sizes(counts: Iterable[int], packing: Packing, source: Source) -> None:
+    """Refuse chunks of more points than there may be room for: lazrs unpacks a chunk at once."""
+    largest = max(counts, default=0)
+    if largest * packing.size > _LARGEST:
+        raise source.error(
+            f"its chunks have {largest:,} points, more than {_LARGEST >> 20} MB: write it again "
+            "with chunks of 50,000"
+        )
 
 
 def check_layers(

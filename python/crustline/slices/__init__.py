@@ -6,10 +6,11 @@ import os
 from collections.abc import Callable, Sequence
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from crustline.errors import InputError
-from crustline.methods import connect
+from crustline.methods import as_method, connect
 from crustline.scalars import as_flag, as_length, as_positive, as_whole
 from crustline.slices.body import as_body
 from crustline.slices.cloud import cut_cloud
@@ -110,9 +111,10 @@ def slices(  # noqa: PLR0913 - all but the first two have a default
     """
     chosen, solid = as_planes(planes), as_body(body, format, crs)
     workers = os.cpu_count() or 1 if threads is None else as_whole("threads", threads, 1)
+    method = as_method(method, hints)
     if isinstance(solid, Mesh):
         for name, given in (("thickness", thickness), ("scale", scale)):
-            if given not in (None, [None] * len(chosen)):
+            if any(each is not None for each in _one_a_plane(given, len(chosen))):
                 raise InputError(f"a mesh is cut exactly, without {name}: leave it away")
         tolerance = None if merge is None else as_length("merge", merge)
         made = cut_mesh(solid, chosen, tolerance=tolerance, threads=workers, hints=hints)
@@ -128,12 +130,19 @@ def slices(  # noqa: PLR0913 - all but the first two have a default
     return Slices(tuple(each for each in made if each.count), empty)
 
 
-def _thickness(thickness: float | Sequence[float | None] | None, count: int) -> list[float]:
+def _one_a_plane(given: Any, count: int) -> list[Any]:
+    """Return what is given for each plane, or the same for all."""
+    if isinstance(given, np.ndarray) and given.ndim == 1:
+        return list(given.tolist())
+    return list(given) if isinstance(given, list | tuple) else [given] * count
+
+
+def _thickness(thickness: Any, count: int) -> list[float]:
     """Return one a plane."""
-    each = list(thickness) if isinstance(thickness, Sequence) else [thickness] * count
+    each = _one_a_plane(thickness, count)
     if len(each) != count:
         raise InputError(f"thickness has {len(each)} numbers for {count} planes: give one a plane")
-    if None in each:
+    if any(one is None for one in each):
         raise InputError(
             "a slice of a cloud has a thickness: give it, such as thickness=0.05 (--thickness 0.05)"
         )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
 from typing import Any
@@ -82,10 +82,12 @@ def _along(xyz: FloatArray, axis: FloatArray) -> FloatArray:
 def as_planes(planes: Any) -> list[Plane]:
     """Return planes of what a caller gives: planes, texts, or a sequence of these."""
     each = [planes] if isinstance(planes, str | Plane) else planes
-    if not isinstance(each, Iterable):
-        raise InputError(f"planes is {shown(planes)}: {_WRITE}")
+    try:
+        every = list(each)
+    except TypeError:  # an array of no dimension, too, has no elements
+        raise InputError(f"planes is {shown(planes)}: {_WRITE}") from None
     found: list[Plane] = []
-    for one in each:
+    for one in every:
         found += [one] if isinstance(one, Plane) else _of_text(one)
     if not found:
         raise InputError(f"there is no plane to slice by: {_WRITE}")
@@ -167,6 +169,8 @@ def section(line: Any, *, name: str = "") -> Plane:
 
     Across is the distance from the first end, up is z.
     """
+    if not isinstance(name, str):
+        raise InputError(f"the name {shown(name)} of a section is not text: give text")
     numbers = _line_of(line)
     x0, y0, x1, y1 = (as_real("section", each) for each in numbers)
     length = math.hypot(x1 - x0, y1 - y0)
