@@ -9,6 +9,9 @@ use rayon::prelude::*;
 const CUT: f64 = 3.0;
 /// Points that one task takes at a time.
 const GRAIN: usize = 256;
+/// How much farther an eye looks than it is asked to, as what is asked next is near; and how far it has looked too far.
+const AHEAD: f64 = 1.5;
+const TOO_FAR: f64 = 4.0;
 
 /// Points, and boxes around them.
 pub struct Cloud<'a> {
@@ -38,21 +41,78 @@ impl<'a> Cloud<'a> {
         Self { points, boxes: Boxes::new(points, |&p| Bounds::at(p)) }
     }
 
-    /// Visit all points at most `reach` from `place`, each with the vector to it and the squared distance.
-    pub fn near(&self, place: Point, reach: f64, mut visit: impl FnMut(u32, Point, f64)) {
+    /// One that has seen nothing yet.
+    #[must_use]
+    pub fn eye(&'a self) -> Eye<'a> {
+        Eye {
+            cloud: self,
+            seen: Bounds::EMPTY,
+            reach: 0.0,
+            points: Vec::new(),
+            numbers: Vec::new(),
+        }
+    }
+
+    /// One value for each of `count` numbers, in parallel; those of successive numbers should look near each other.
+    pub fn each<T: Send>(
+        &self,
+        count: usize,
+        value: impl Fn(&mut Eye<'_>, usize) -> T + Sync + Send,
+    ) -> Vec<T> {
+        let numbers = (0..count).into_par_iter().with_min_len(GRAIN);
+        numbers.map_init(|| self.eye(), value).collect()
+    }
+}
+
+/// One who looks at a cloud, at one place after another, and remembers a square of it.
+///
+/// What it finds, and in which order, does not depend on where it has looked before.
+pub struct Eye<'a> {
+    cloud: &'a Cloud<'a>,
+    /// The square that is remembered, and half its side.
+    seen: Bounds,
+    reach: f64,
+    /// The points in it and their numbers, ascending.
+    points: Vec<Point>,
+    numbers: Vec<u32>,
+}
+
+impl Eye<'_> {
+    /// Visit all points at most `reach` from `place` in the order of their numbers, each with the vector to it and the squared distance.
+    pub fn near(&mut self, place: Point, reach: f64, mut visit: impl FnMut(u32, Point, f64)) {
+        self.look(place, reach);
         let square = reach * reach;
-        self.boxes.any(&mut |bounds, _| bounds.square_to(place) <= square, &mut |k| {
-            let offset = sub(self.points[k as usize], place);
+        for (&point, &number) in self.points.iter().zip(&self.numbers) {
+            let offset = sub(point, place);
             let distance = dot(offset, offset);
             if distance <= square {
-                visit(k, offset, distance);
+                visit(number, offset, distance);
             }
+        }
+    }
+
+    /// See to it that the square of `reach` about `place` is remembered, and not far more.
+    fn look(&mut self, place: Point, reach: f64) {
+        let Bounds { low, high } = self.seen;
+        let is_inside = |k: usize| low[k] <= place[k] - reach && place[k] + reach <= high[k];
+        if is_inside(0) && is_inside(1) && self.reach <= TOO_FAR * reach {
+            return;
+        }
+        self.reach = AHEAD * reach;
+        let square = [-self.reach, self.reach].map(|reach| place.map(|x| x + reach));
+        let square = Bounds { low: square[0], high: square[1] };
+        (self.points.clear(), self.numbers.clear());
+        let (points, numbers) = (&mut self.points, &mut self.numbers);
+        self.cloud.boxes.any(&mut |bounds, _| bounds.meets(&square), &mut |k| {
+            points.push(self.cloud.points[k as usize]);
+            numbers.push(k);
             false
         });
+        self.seen = square;
     }
 
     /// Visit all points in a Gaussian window of width `width` about `place`, each with the vector to it and its weight.
-    pub fn window(&self, place: Point, width: f64, mut visit: impl FnMut(Point, f64)) {
+    pub fn window(&mut self, place: Point, width: f64, mut visit: impl FnMut(Point, f64)) {
         let factor = -0.5 / (width * width);
         self.near(place, CUT * width, |_, offset, square| {
             visit(offset, libm::exp(factor * square));
@@ -60,8 +120,7 @@ impl<'a> Cloud<'a> {
     }
 
     /// The moments under the Gaussian window of `width` about `place`.
-    #[must_use]
-    pub fn moments(&self, place: Point, width: f64) -> Moments {
+    pub fn moments(&mut self, place: Point, width: f64) -> Moments {
         let (mut weight, mut squares, mut first, mut second) = (0.0, 0.0, [0.0; 2], [0.0; 3]);
         self.window(place, width, |[x, y], w| {
             weight += w;
@@ -83,8 +142,7 @@ impl<'a> Cloud<'a> {
     }
 
     /// The variance about the parabola over the principal direction that fits best in a window; none in one of few points.
-    #[must_use]
-    pub fn bent(&self, place: Point, width: f64) -> Option<f64> {
+    pub fn bent(&mut self, place: Point, width: f64) -> Option<f64> {
         let Moments { count, mean, tangent: [tx, ty], .. } = self.moments(place, width);
         let (mut powers, mut against, mut square) = ([0.0; 5], [0.0; 3], 0.0);
         self.window(place, width, |[x, y], w| {
@@ -107,8 +165,7 @@ impl<'a> Cloud<'a> {
     }
 
     /// The distance from `place` to the `count`-th nearest other point, sought within `guess`, and twice that, and so on.
-    #[must_use]
-    pub fn distance_to_nearest(&self, place: Point, count: usize, guess: f64) -> f64 {
+    pub fn distance_to_nearest(&mut self, place: Point, count: usize, guess: f64) -> f64 {
         let mut squares = Vec::new();
         let mut reach = guess;
         for _ in 0..64 {
@@ -118,7 +175,7 @@ impl<'a> Cloud<'a> {
                 let (_, nth, _) = squares.select_nth_unstable_by(count, f64::total_cmp);
                 return nth.sqrt();
             }
-            if squares.len() == self.points.len() {
+            if squares.len() == self.cloud.points.len() {
                 break;
             }
             reach *= 2.0;
@@ -135,11 +192,6 @@ fn principal([xx, xy, yy]: [f64; 3]) -> ([f64; 2], Point) {
     let length = tangent[0].hypot(tangent[1]);
     let tangent = if length > 0.0 { tangent.map(|x| x / length) } else { [1.0, 0.0] };
     ([mean + spread, (mean - spread).max(0.0)], tangent)
-}
-
-/// One value for each of `count` numbers, in parallel.
-pub fn each<T: Send>(count: usize, value: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
-    (0..count).into_par_iter().with_min_len(GRAIN).map(value).collect()
 }
 
 /// The sum of squares that the best parabola explains, from sums of powers of u, and of their products with v.

@@ -11,7 +11,7 @@ use crate::delaunay::Delaunay;
 use crate::error::Result;
 use crate::point::Point;
 use crate::progress::{Progress, Stage};
-use cloud::{Cloud, Moments, each};
+use cloud::{Cloud, Eye, Moments};
 pub use scale::Scale;
 
 /// The widths of the windows in deviations of the noise: where even narrow ones see many points, strands stay apart.
@@ -60,15 +60,15 @@ pub fn ridge(delaunay: &Delaunay, noise: Option<&[f64]>, progress: &Progress) ->
         scales.iter_mut().zip(noise).for_each(|(scale, &noise)| scale.noise = noise);
     }
     progress.advance(count / 3)?;
-    let widths = each(count, |v| width(&cloud, delaunay.points()[v], &scales[v]));
+    let widths = cloud.each(count, |eye, v| width(eye, delaunay.points()[v], &scales[v]));
     let mut at = delaunay.points().to_vec();
     for _ in 0..MOVES[0] {
-        at = each(count, |v| moved(&cloud, at[v], widths[v]));
+        at = cloud.each(count, |eye, v| moved(eye, at[v], widths[v]));
         progress.advance(count / 12)?;
     }
     for _ in 0..MOVES[1] {
         let cloud = Cloud::new(&at);
-        at = each(count, |v| moved(&cloud, at[v], widths[v]));
+        at = cloud.each(count, |eye, v| moved(eye, at[v], widths[v]));
         progress.advance(count / 12)?;
     }
     let crests = crests(&at, &widths);
@@ -76,23 +76,23 @@ pub fn ridge(delaunay: &Delaunay, noise: Option<&[f64]>, progress: &Progress) ->
 }
 
 /// The width of the window at a vertex: 0 if it is to stay, not a number if there is no curve.
-fn width(cloud: &Cloud<'_>, at: Point, scale: &Scale) -> f64 {
+fn width(eye: &mut Eye<'_>, at: Point, scale: &Scale) -> f64 {
     if scale.noise < STILL * scale.first {
         return 0.0;
     }
     let [narrow, wide] = WIDTHS.map(|factor| factor * scale.noise);
-    if narrow > scale.first && cloud.moments(at, narrow).count >= MANY {
+    if narrow > scale.first && eye.moments(at, narrow).count >= MANY {
         return narrow;
     }
     if scale.noise.is_nan() { f64::NAN } else { scale.first.max(wide) }
 }
 
 /// Where a point at `at` moves: across the principal direction, to the mean.
-fn moved(cloud: &Cloud<'_>, at: Point, width: f64) -> Point {
+fn moved(eye: &mut Eye<'_>, at: Point, width: f64) -> Point {
     if width.is_nan() || width == 0.0 {
         return at;
     }
-    let Moments { mean, tangent: [tx, ty], .. } = cloud.moments(at, width);
+    let Moments { mean, tangent: [tx, ty], .. } = eye.moments(at, width);
     let across = mean[1] * tx - mean[0] * ty;
     [at[0] - across * ty, at[1] + across * tx]
 }
@@ -100,26 +100,23 @@ fn moved(cloud: &Cloud<'_>, at: Point, width: f64) -> Point {
 /// Points that are on the ridge, one for each gap.
 fn crests(at: &[Point], widths: &[f64]) -> Vec<Crest> {
     let cloud = Cloud::new(at);
-    let weights =
-        each(
-            at.len(),
-            |v| {
-                if widths[v] > 0.0 { cloud.moments(at[v], widths[v]).weight } else { 0.0 }
-            },
-        );
-    let is_bright = each(at.len(), |v| {
+    let weights = cloud.each(at.len(), |eye, v| {
+        if widths[v] > 0.0 { eye.moments(at[v], widths[v]).weight } else { 0.0 }
+    });
+    let is_bright = cloud.each(at.len(), |eye, v| {
         let mut around = Vec::new();
-        cloud.near(at[v], 2.0 * widths[v].max(0.0), |k, _, _| around.push(weights[k as usize]));
+        eye.near(at[v], 2.0 * widths[v].max(0.0), |k, _, _| around.push(weights[k as usize]));
         let middle = around.len() / 2;
         let usual = *around.select_nth_unstable_by(middle, f64::total_cmp).1;
         widths[v] == 0.0 || weights[v] >= FAINT * usual && widths[v] > 0.0
     });
+    let mut eye = cloud.eye();
     let mut is_covered = vec![false; at.len()];
     let mut crests = Vec::new();
     for v in 0..at.len() {
         if is_bright[v] && !is_covered[v] {
             crests.push(Crest { vertex: v as u32, at: at[v] });
-            cloud.near(at[v], GAP * widths[v], |k, _, _| is_covered[k as usize] = true);
+            eye.near(at[v], GAP * widths[v], |k, _, _| is_covered[k as usize] = true);
         }
     }
     crests

@@ -5,7 +5,7 @@
 //! are in the window, and it is small beside the curve's radius and its distance from others. So the smallest window counts in
 //! which the points look like a curve.
 
-use super::cloud::{Cloud, each};
+use super::cloud::{Cloud, Eye};
 use crate::delaunay::Delaunay;
 use crate::point::{Point, length, sub};
 
@@ -49,9 +49,9 @@ pub fn scales(delaunay: &Delaunay, cloud: &Cloud<'_>) -> Vec<Scale> {
     for step in 0..STEPS {
         let factor = STEP.powi(step);
         let is_asked = |v: usize| rings(delaunay, v).any(|u| sights[u].is_open);
-        let seen = each(first.len(), |v| {
+        let seen = cloud.each(first.len(), |eye, v| {
             let moments =
-                is_asked(v).then(|| cloud.moments(delaunay.point(v as u32), first[v] * factor));
+                is_asked(v).then(|| eye.moments(delaunay.point(v as u32), first[v] * factor));
             moments.map(|m| (m.variances[1] / m.variances[0].max(f64::MIN_POSITIVE), m.count))
         });
         for (sight, seen) in sights.iter_mut().zip(&seen) {
@@ -59,12 +59,12 @@ pub fn scales(delaunay: &Delaunay, cloud: &Cloud<'_>) -> Vec<Scale> {
             (sight.quotient, sight.count) = (quotient, count);
             sight.is_open &= count < MANY;
         }
-        sights = each(first.len(), |v| {
+        sights = cloud.each(first.len(), |eye, v| {
             let quotient =
                 sights[v].noise.is_nan().then(|| agreed(delaunay, v, |u| sights[u].quotient));
             match quotient {
                 Some(q) if q <= slim(sights[v].count) => Sight {
-                    noise: noise(cloud, delaunay.point(v as u32), first[v] * factor, q),
+                    noise: noise(eye, delaunay.point(v as u32), first[v] * factor, q),
                     is_open: false,
                     ..sights[v]
                 },
@@ -75,8 +75,8 @@ pub fn scales(delaunay: &Delaunay, cloud: &Cloud<'_>) -> Vec<Scale> {
             break;
         }
     }
-    each(first.len(), |v| Scale {
-        noise: settled(delaunay, cloud, &sights, &first, v),
+    cloud.each(first.len(), |eye, v| Scale {
+        noise: settled(delaunay, eye, &sights, &first, v),
         first: first[v],
     })
 }
@@ -84,9 +84,9 @@ pub fn scales(delaunay: &Delaunay, cloud: &Cloud<'_>) -> Vec<Scale> {
 /// The noise about `place`, where the variances have the quotient `q`, less what is due to the curve's bend.
 ///
 /// A parabola over the principal direction leaves a residual; windows with three points more than it has parameters count.
-fn noise(cloud: &Cloud<'_>, place: Point, window: f64, q: f64) -> f64 {
+fn noise(eye: &mut Eye<'_>, place: Point, window: f64, q: f64) -> f64 {
     let straight = window * (q / (1.0 - q)).sqrt();
-    let Some(residual) = cloud.bent(place, window) else { return straight };
+    let Some(residual) = eye.bent(place, window) else { return straight };
     let q = (residual / (window * window)).min(0.9);
     straight.min(window * (q / (1.0 - q)).sqrt())
 }
@@ -100,7 +100,7 @@ fn slim(count: f64) -> f64 {
 /// The noise that the points within some windows agree on.
 fn settled(
     delaunay: &Delaunay,
-    cloud: &Cloud<'_>,
+    eye: &mut Eye<'_>,
     sights: &[Sight],
     first: &[f64],
     v: usize,
@@ -111,19 +111,19 @@ fn settled(
     }
     let mut all = Vec::new();
     let reach = 3.0 * own.max(first[v]);
-    cloud.near(delaunay.point(v as u32), reach, |k, _, _| all.push(sights[k as usize].noise));
+    eye.near(delaunay.point(v as u32), reach, |k, _, _| all.push(sights[k as usize].noise));
     median(&mut all)
 }
 
 /// Half the distance from each vertex to the few nearest.
 fn first_windows(delaunay: &Delaunay, cloud: &Cloud<'_>) -> Vec<f64> {
-    let distances = each(delaunay.points().len(), |v| {
+    let distances = cloud.each(delaunay.points().len(), |eye, v| {
         let p = delaunay.point(v as u32);
         let star = delaunay.star(v as u32).neighbors;
         let far = star.iter().map(|&q| length(sub(delaunay.point(q), p)));
-        cloud.distance_to_nearest(p, FEW, far.fold(f64::INFINITY, f64::min) * 3.0) / 2.0
+        eye.distance_to_nearest(p, FEW, far.fold(f64::INFINITY, f64::min) * 3.0) / 2.0
     });
-    each(distances.len(), |v| agreed(delaunay, v, |u| distances[u]))
+    cloud.each(distances.len(), |_, v| agreed(delaunay, v, |u| distances[u]))
 }
 
 /// The neighbors of a vertex and their neighbors; near ones come more than once.

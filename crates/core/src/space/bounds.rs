@@ -87,6 +87,13 @@ impl Bounds {
         Self { low: self.low.map(|x| x * factor), high: self.high.map(|x| x * factor) }
     }
 
+    /// Do the two have a point in common?
+    #[inline]
+    #[must_use]
+    pub fn meets(&self, other: &Self) -> bool {
+        (0..2).all(|k| self.low[k] <= other.high[k] && other.low[k] <= self.high[k])
+    }
+
     /// The squared distance to `p`.
     #[inline]
     #[must_use]
