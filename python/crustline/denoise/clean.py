@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crustline.arrays import BoolArray, FloatArray, IntArray
-from crustline.curves import trace
+from crustline.curves import Curves, trace
 from crustline.delaunay import Delaunay
 from crustline.denoise.strand import Strand
 
@@ -17,6 +17,9 @@ from crustline.denoise.strand import Strand
 CLEAN = 0.06
 #: Points that a ring, and a line, has at least to be judged.
 FEWEST = {True: 8, False: 12}
+#: Points of a ring, and of a line, from which on that counts; of fewer, which can be on a smooth
+#: curve by chance, less does.
+SURE = {True: 12, False: 40}
 #: How many neighbors on either side predict a point.
 NEIGHBORS = (2, 3, 4)
 #: The median of the absolute value of a standard normal number.
@@ -25,38 +28,57 @@ MEDIAN = 0.6745
 
 def clean_strands(delaunay: Delaunay, method: Callable[..., ArrayLike]) -> list[Strand]:
     """Return the curves, as a method connects the points, whose points are on smooth curves."""
-    points = delaunay.points.xy
-    found = []
-    for curve in trace(delaunay, method(delaunay)):
-        if len(curve.indices) < FEWEST[curve.closed]:
-            continue
-        noise = _noise(points[curve.indices], curve.closed)
-        if noise < CLEAN:
-            found.append(_strand(delaunay, curve.indices, curve.closed))
-    return found
+    curves = trace(delaunay, method(delaunay))
+    sizes = np.diff(curves.offsets)
+    fewest = np.where(curves.closed, FEWEST[True], FEWEST[False])
+    most = CLEAN * np.minimum(sizes / np.where(curves.closed, SURE[True], SURE[False]), 1.0)
+    is_clean = (sizes >= fewest) & (_noise(delaunay.points.xy, curves) < most)
+    return [
+        _strand(delaunay, curves.indices[slice(*curves.offsets[k : k + 2])], bool(curves.closed[k]))
+        for k in np.flatnonzero(is_clean)
+    ]
 
 
-def _noise(path: FloatArray, closed: bool) -> float:
-    """Return the deviation of points across their path, in steps, from what neighbors predict.
+def _noise(points: FloatArray, curves: Curves) -> FloatArray:
+    """Return for each curve the deviation of points across it, in steps, from what neighbors say.
 
     Bends are predicted the better the more neighbors are asked, noise is not: the least counts.
     """
-    asked = [each for each in NEIGHBORS if len(path) > 2 * each + 1]
-    return min(_deviation(path, closed, each) for each in asked)
+    asked = [_deviation(points[curves.indices], curves, each) for each in NEIGHBORS]
+    least: FloatArray = np.min(asked, axis=0)
+    return least
 
 
-def _deviation(path: FloatArray, closed: bool, asked: int) -> float:
+def _deviation(path: FloatArray, curves: Curves, asked: int) -> FloatArray:
     """Return it for so many neighbors on either side, as if at equal steps on a polynomial."""
     differences = np.array([(-1) ** k * math.comb(2 * asked, k) for k in range(2 * asked + 1)])
     stencil = differences / differences[asked]
-    count = len(path)
-    center = np.arange(count) if closed else np.arange(asked, count - asked)
-    around = (center[:, None] + np.arange(-asked, asked + 1)) % count
+    sizes = np.diff(curves.offsets)
+    curve = np.repeat(np.arange(len(sizes)), sizes)
+    place = np.arange(len(path)) - curves.offsets[curve]
+    has_all = curves.closed[curve] | (place >= asked) & (place < sizes[curve] - asked)
+    center = np.flatnonzero(has_all & (sizes[curve] > 2 * asked + 1))
+    curve, start = curve[center], curves.offsets[curve[center]]
+    steps = np.arange(-asked, asked + 1)
+    around = start[:, None] + (place[center, None] + steps) % sizes[curve, None]
     error = np.einsum("k,ikj->ij", stencil, path[around])
     chord = path[around[:, asked + 1]] - path[around[:, asked - 1]]
     length = np.hypot(*chord.T)
     across = np.abs(error[:, 0] * chord[:, 1] - error[:, 1] * chord[:, 0]) / length
-    return float(np.median(across / (length / 2)) / (MEDIAN * np.sqrt((stencil**2).sum())))
+    normal = MEDIAN * float(np.sqrt((stencil**2).sum()))
+    return _medians(across / (length / 2) / normal, curve, len(sizes))
+
+
+def _medians(values: FloatArray, group: IntArray, groups: int) -> FloatArray:
+    """Return the median of each group of values, infinity for none."""
+    ordered = values[np.lexsort((values, group))]
+    counts = np.bincount(group, minlength=groups)
+    has_some = np.flatnonzero(counts)
+    first = (np.cumsum(counts) - counts)[has_some]
+    low, high = first + (counts[has_some] - 1) // 2, first + counts[has_some] // 2
+    medians = np.full(groups, np.inf)
+    medians[has_some] = (ordered[low] + ordered[high]) / 2
+    return medians
 
 
 def _strand(delaunay: Delaunay, rows: IntArray, closed: bool) -> Strand:

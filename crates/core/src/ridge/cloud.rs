@@ -101,7 +101,8 @@ impl Eye<'_> {
         self.reach = AHEAD * reach;
         let square = [-self.reach, self.reach].map(|reach| place.map(|x| x + reach));
         let square = Bounds { low: square[0], high: square[1] };
-        (self.points.clear(), self.numbers.clear());
+        self.points.clear();
+        self.numbers.clear();
         let (points, numbers) = (&mut self.points, &mut self.numbers);
         self.cloud.boxes.any(&mut |bounds, _| bounds.meets(&square), &mut |k| {
             points.push(self.cloud.points[k as usize]);
@@ -115,7 +116,7 @@ impl Eye<'_> {
     pub fn window(&mut self, place: Point, width: f64, mut visit: impl FnMut(Point, f64)) {
         let factor = -0.5 / (width * width);
         self.near(place, CUT * width, |_, offset, square| {
-            visit(offset, libm::exp(factor * square));
+            visit(offset, bell(factor * square));
         });
     }
 
@@ -184,6 +185,16 @@ impl Eye<'_> {
     }
 }
 
+/// e to the power `x` from −CUT² / 2 to 0, but for one in a million: the 32nd power of a Taylor polynomial.
+///
+/// The same on all machines, and a third of the time of one that is right everywhere.
+#[inline]
+fn bell(x: f64) -> f64 {
+    let y = x / 32.0;
+    let small = 1.0 + y * (1.0 + y / 2.0 * (1.0 + y / 3.0 * (1.0 + y / 4.0 * (1.0 + y / 5.0))));
+    (0..5).fold(small, |power, _| power * power)
+}
+
 /// The variances along and across the principal direction, and that direction.
 fn principal([xx, xy, yy]: [f64; 3]) -> ([f64; 2], Point) {
     let (half, mean) = ((xx - yy) / 2.0, f64::midpoint(xx, yy));
@@ -204,4 +215,38 @@ fn parabola([a, b, c, d, e]: [f64; 5], [x, y, z]: [f64; 3]) -> Option<f64> {
         + inner[2] * z * z
         + 2.0 * (minors[1] * x * y + minors[2] * x * z + inner[1] * y * z);
     (determinant > 1e-9 * a * a * a).then(|| quadratic / determinant)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bell_is_the_exponential_but_for_one_in_a_million() {
+        for k in 0..=4500 {
+            let x = -f64::from(k) / 1000.0;
+            assert!((bell(x) / libm::exp(x) - 1.0).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn an_eye_sees_the_same_wherever_it_has_looked_before() {
+        let points: Vec<Point> =
+            (0..500).map(|k| [f64::from(k * 37 % 101), f64::from(k * 53 % 97)]).collect();
+        let cloud = Cloud::new(&points);
+        let seen = |eye: &mut Eye<'_>, place, reach| {
+            let mut found = Vec::new();
+            eye.near(place, reach, |k, _, _| found.push(k));
+            found
+        };
+        let mut eye = cloud.eye();
+        for (k, &place) in points.iter().enumerate() {
+            let reach = [0.0, 3.0, 30.0, 5.0, 200.0][k % 5];
+            let distance = |p: &Point| sub(*p, place).map(|x| x * x).iter().sum::<f64>();
+            let expected: Vec<u32> =
+                (0..500).filter(|&k| distance(&points[k as usize]) <= reach * reach).collect();
+            assert_eq!(seen(&mut eye, place, reach), expected);
+            assert_eq!(seen(&mut cloud.eye(), place, reach), expected);
+        }
+    }
 }
