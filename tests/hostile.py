@@ -254,7 +254,7 @@ NOUNS: list[Make] = [
     lambda: shapes.circle().medial_axis(),
 ]
 #: Calls whose arguments are code: they may do anything.
-NOT_CALLED = {"cached", "run", "plot", "picture", "count", "index", "select_method"}
+NOT_CALLED = {"cached", "kept", "run", "plot", "picture", "count", "index", "select_method"}
 
 
 def functions() -> dict[str, Callable[..., Any]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import faulthandler
 from collections.abc import Callable, Iterator
+from fractions import Fraction
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -127,6 +128,21 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     "groups without end": (
         lambda: cl.by_group([(0, 0), (1, 1)], hostile.Endless()),  # type: ignore[arg-type]
         "groups: the labels are no flat list",
+    ),
+    "a section of a number beyond all floats": (
+        lambda: cl.section(Fraction(10**400)), "is no line: write x0,y0,x1,y1"
+    ),
+    "a section whose name is no text": (
+        lambda: cl.section((0, 0, 3, 4), name=np.zeros((2, 2))),  # type: ignore[arg-type]
+        "give a text",
+    ),
+    "a method by its name, to slices": (
+        lambda: cl.slices(hostile.TETRAHEDRON, "z=0.5", method="crust"),  # type: ignore[arg-type]
+        "method is 'crust', not a function: write method=cl.crust",
+    ),
+    "points, to center_line": (
+        lambda: cl.center_line(hostile.RING),  # type: ignore[arg-type]
+        "pass what trace or reconstruct returns",
     ),
     "a path that is a number": (lambda: cl.read(5), "path is 5: give a path"),
     "a target that is a number": (lambda: cl.Points([]).write(5), "path is 5: give a file name"),  # type: ignore[arg-type]

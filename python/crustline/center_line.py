@@ -9,7 +9,7 @@ import numpy as np
 from crustline.arrays import BoolArray, FloatArray, IntArray
 from crustline.curves import Curves
 from crustline.delaunay import Delaunay
-from crustline.errors import InputError
+from crustline.errors import InputError, shown
 from crustline.medial_axis import MedialAxis, medial_axis
 from crustline.points import Points
 from crustline.scalars import as_positive
@@ -87,6 +87,8 @@ def center_line(curves: Curves, *, accuracy: float = 0.01) -> MedialAxis:
     >>> bool(len(along)) and bool((abs(along[:, 1] - 0.5) < 0.01).all())
     True
     """
+    if not isinstance(curves, Curves):
+        raise InputError(f"curves is {shown(curves)}: pass what trace or reconstruct returns")
     sides = _sides_of(curves)
     part = np.sqrt(16 * as_positive("accuracy", accuracy))
     shortest = _SHORTEST * float(np.ptp(sides.xy, axis=0).max())

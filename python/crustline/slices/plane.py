@@ -190,7 +190,7 @@ def _line_of(line: Any) -> list[float]:
     try:
         parts = line.split(",") if isinstance(line, str) else np.ravel(line).tolist()
         numbers = list(map(float, parts))
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         numbers = []
     if len(numbers) != 4:
         raise InputError(f"the section {shown(line)} is no line: write x0,y0,x1,y1")
