@@ -134,7 +134,7 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     ),
     "a section whose name is no text": (
         lambda: cl.section((0, 0, 3, 4), name=np.zeros((2, 2))),  # type: ignore[arg-type]
-        "give a text",
+        "is not text: give text",
     ),
     "a method by its name, to slices": (
         lambda: cl.slices(hostile.TETRAHEDRON, "z=0.5", method="crust"),  # type: ignore[arg-type]
