@@ -328,13 +328,22 @@ def test_another_run_in_the_folder_is_refused(client, tmp_path):
 
 @pytest.mark.parametrize(
     "method",
-    [cl.gabriel, cl.relative_neighborhood, cl.minimum_spanning_tree, cl.connect, cl.rcgh],
+    [
+        cl.gabriel,
+        cl.relative_neighborhood,
+        cl.minimum_spanning_tree,
+        cl.connect,
+        cl.rcgh,
+        cl.alpha_shape,
+        cl.nn_crust,
+    ],
     ids=lambda method: method.__name__,
 )
 def test_methods_that_are_not_local_are_refused_by_name(tmp_path, method):
     name = method.__name__.replace("_", "-")
+    given = {"radius": 1.0} if method is cl.alpha_shape else {}
     with pytest.raises(cl.InputError, match=f"{name} cannot be decided tile by tile"):
-        reconstruct("none.parquet", tmp_path / "out", method)
+        reconstruct("none.parquet", tmp_path / "out", method, **given)
     assert not (tmp_path / "out").exists()
 
 
@@ -401,6 +410,19 @@ def test_las_is_read_by_chunks(client, tmp_path):
     path = tmp_path / "points.las"
     result = reconstruct(path, tmp_path / "out", client=client, tile_points=60)
     agrees(result, np.stack([cloud.x, cloud.y], axis=1))
+
+
+def test_object_stores_are_read_through_fsspec(client, tmp_path):
+    """Of one in this process, as of any other that fsspec knows."""
+    fsspec = pytest.importorskip("fsspec")
+    xy = circles(300, np.random.default_rng(28))
+    store = fsspec.filesystem("memory")
+    for k, part in enumerate(np.array_split(xy, 2)):
+        with store.open(f"/survey/{k}.parquet", "wb") as file:
+            parquet.write_table(pa.table({"x": part[:, 0], "y": part[:, 1]}), file)
+    source = "memory://survey/*.parquet"
+    agrees(reconstruct(source, tmp_path / "out", client=client, tile_points=60), xy)
+    store.rm("/survey", recursive=True)
 
 
 def test_curves_are_geoparquet(client, tmp_path):
