@@ -220,3 +220,15 @@ def test_junctions() -> None:
     made = cl.reconstruct(cross, junctions=True)
     assert [len(each) for each in made] == [9, 9, 9, 9]
     assert made.branches.tolist() == [8]
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.3, 2.0])
+def test_three_ends_that_meet_are_joined(turn: float) -> None:
+    """Two arms ended beside the point where all three meet, for it was the end of the third."""
+    angles = turn + np.radians([0, 115, 240])
+    arms = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    steps = np.arange(1, 13)[:, None]
+    star = np.concatenate([[(0.0, 0.0)], *(steps * arm for arm in arms)])
+    made = cl.reconstruct(star, junctions=True)
+    assert made.branches.tolist() == [0]
+    assert [len(each) for each in made] == [13, 13, 13]

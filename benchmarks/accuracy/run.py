@@ -40,8 +40,8 @@ number of edges is wrong. Methods that need a parameter are left out.
 GENERATED = """\
 Cases that `benchmarks/accuracy` makes, their parameters drawn uniformly over the ranges that its
 docstrings state. The constants of `connect` were chosen on the half "tuned". The half "unseen" was
-looked at {looks} ({date}); two earlier ones, looked at once and twice, led to changes and are
-unseen no more. Groups marked * are harder than `connect` promises to be good at: junctions, more
+looked at {looks} ({date}); three earlier ones, looked at once, twice and once, led to changes and
+are unseen no more. Groups marked * are harder than `connect` promises to be good at: junctions, more
 noise than 0.15 steps, more than 30 % outliers. T, X and Y are asked for with `junctions=True`;
 without it no point has more than two edges, and none of them is exact. Precision and recall are
 those of `connect`.

@@ -7,19 +7,23 @@ use super::selection::Selection;
 
 /// The most edges at a point.
 const MOST: u8 = 4;
+/// One for each of the ends that may come to a point.
+const ROUNDS: usize = MOST as usize;
 
 /// A change that makes a junction: half-edges to it, and the chord that they replace.
 #[derive(Debug, Clone, Copy)]
 struct Change {
     cost: f32,
+    /// The point whose change it is.
+    at: usize,
     comes: [Option<usize>; 2],
     goes: Option<usize>,
 }
 
 /// Make junctions, the cheapest first, as long as they cost less than what they replace.
 pub fn join(found: &Found<'_>, selection: &mut Selection) {
-    // The second time for what the first one made room for.
-    for _ in 0..2 {
+    // The later rounds for what waited, or what earlier ones made room for.
+    for _ in 0..ROUNDS {
         let vertices = 0..found.candidates.vertices();
         let mut changes: Vec<Change> =
             vertices.flat_map(|v| changes_at(found, selection, v)).collect();
@@ -34,12 +38,13 @@ pub fn join(found: &Found<'_>, selection: &mut Selection) {
     }
 }
 
-/// Make a change, unless an earlier one touched one of its points.
+/// Make a change, unless an earlier one touched one of its points: then its own point waits, and takes nothing worse.
 fn apply(found: &Found<'_>, selection: &mut Selection, change: Change, touched: &mut [bool]) {
     let candidates = &found.candidates;
     let edges = || change.comes.into_iter().chain([change.goes]).flatten();
     let both = |e: usize| [e, candidates.twins[e] as usize].map(|e| candidates.ends[e] as usize);
     if edges().flat_map(both).any(|v| touched[v]) {
+        touched[change.at] = true;
         return;
     }
     for v in edges().flat_map(both) {
@@ -53,18 +58,21 @@ fn apply(found: &Found<'_>, selection: &mut Selection, change: Change, touched: 
     }
 }
 
-/// The changes that join an end `v` to a curve, or lead a chord beside `v` through it.
+/// The changes that join an end `v` to a curve or to two other ends, or lead a chord beside `v` through it.
 fn changes_at(found: &Found<'_>, selection: &Selection, v: usize) -> Vec<Change> {
     let mut changes = Vec::new();
     let degree = selection.degrees[v];
     if degree == 0 || degree > MOST - 2 || found.known.ends_at(v) {
         return changes;
     }
+    if degree == 1 {
+        changes.extend(meet(found, selection, v));
+    }
     for e in found.candidates.from(v).filter(|&e| !selection.chosen[e]) {
         if degree == 1
             && let Some(cost) = straight_on(found, selection, v, e)
         {
-            changes.push(Change { cost, comes: [Some(e), None], goes: None });
+            changes.push(Change { cost, at: v, comes: [Some(e), None], goes: None });
         }
         let x = found.candidates.ends[e] as usize;
         for chord in selection.from(&found.candidates, x) {
@@ -72,7 +80,7 @@ fn changes_at(found: &Found<'_>, selection: &Selection, v: usize) -> Vec<Change>
             let Some(f) = half_edge(&found.candidates, v, y).filter(|_| x < y) else { continue };
             if !selection.chosen[f] && !found.candidates.is_kept(chord) {
                 let cost = through(found, selection, v, [e, f], chord);
-                changes.push(Change { cost, comes: [Some(e), Some(f)], goes: Some(chord) });
+                changes.push(Change { cost, at: v, comes: [Some(e), Some(f)], goes: Some(chord) });
             }
         }
     }
@@ -88,7 +96,41 @@ fn straight_on(found: &Found<'_>, selection: &Selection, v: usize, e: usize) -> 
         return None;
     }
     let passed = pass(found, v, [own, e])?;
-    Some(found.costs.edges[e] + passed - found.costs.ends[v] + JUNCTION)
+    let met = if selection.degrees[end] == 3 { across(found, selection, e) } else { JUNCTION };
+    Some(found.costs.edges[e] + passed - found.costs.ends[v] + met)
+}
+
+/// What going on across the junction to which `e` leads costs, along the straightest of its arms.
+fn across(found: &Found<'_>, selection: &Selection, e: usize) -> f32 {
+    let back = found.candidates.twins[e] as usize;
+    let end = found.candidates.ends[e] as usize;
+    selection
+        .from(&found.candidates, end)
+        .filter_map(|arm| pass(found, end, [back, arm]))
+        .fold(JUNCTION, f32::min)
+}
+
+/// Three ends that meet at `v`, one of them: the two cheapest others that go straight on to it.
+fn meet(found: &Found<'_>, selection: &Selection, v: usize) -> Option<Change> {
+    let Found { candidates, costs, .. } = found;
+    let mut arms: Vec<(f32, usize)> = candidates
+        .from(v)
+        .filter(|&e| !selection.chosen[e])
+        .filter_map(|e| {
+            let end = candidates.ends[e] as usize;
+            let is_end = selection.degrees[end] == 1 && !found.known.ends_at(end);
+            let own = selection.from(candidates, end).next().filter(|_| is_end)?;
+            if is_next(found, selection, own, v) {
+                return None;
+            }
+            let passed = pass(found, end, [own, candidates.twins[e] as usize])?;
+            Some((costs.edges[e] + passed - costs.ends[end], e))
+        })
+        .collect();
+    arms.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let [(first, e), (second, f), ..] = arms[..] else { return None };
+    let cost = first + second - costs.ends[v] + JUNCTION;
+    Some(Change { cost, at: v, comes: [Some(e), Some(f)], goes: None })
 }
 
 /// What leading the chord from x to y through `v` costs, by the half-edges from there.
