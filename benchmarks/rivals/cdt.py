@@ -1,5 +1,7 @@
 """CDT through its Python package; without constraints it is a Delaunay triangulation."""
 
+from typing import Any
+
 import numpy as np
 import pythoncdt
 
@@ -10,7 +12,8 @@ def delaunay(points: np.ndarray) -> pythoncdt.Triangulation:
     triangulation = pythoncdt.Triangulation(
         pythoncdt.VertexInsertionOrder.AUTO, pythoncdt.IntersectingConstraintEdges.NOT_ALLOWED, 0.0
     )
-    triangulation.insert_vertices(points)
+    insert: Any = triangulation.insert_vertices  # takes arrays, though its types do not say so
+    insert(points)
     triangulation.erase_super_triangle()
     return triangulation
 
