@@ -101,6 +101,13 @@ impl Candidates {
         self.offsets[v] as usize..self.offsets[v + 1] as usize
     }
 
+    /// Both ends of the edge of half-edge `e`, the one to which it leads last.
+    #[inline]
+    #[must_use]
+    pub fn both_ends(&self, e: usize) -> [usize; 2] {
+        [self.ends[self.twins[e] as usize] as usize, self.ends[e] as usize]
+    }
+
     /// Is the edge of half-edge `e` to be in the answer?
     #[inline]
     #[must_use]

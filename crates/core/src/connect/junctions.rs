@@ -28,6 +28,9 @@ pub fn join(found: &Found<'_>, selection: &mut Selection) {
         let mut changes: Vec<Change> =
             vertices.flat_map(|v| changes_at(found, selection, v)).collect();
         changes.retain(|change| change.cost < 0.0);
+        if changes.is_empty() {
+            return;
+        }
         changes.sort_by(|a, b| {
             a.cost.total_cmp(&b.cost).then(a.goes.cmp(&b.goes)).then(a.comes.cmp(&b.comes))
         });
@@ -42,12 +45,11 @@ pub fn join(found: &Found<'_>, selection: &mut Selection) {
 fn apply(found: &Found<'_>, selection: &mut Selection, change: Change, touched: &mut [bool]) {
     let candidates = &found.candidates;
     let edges = || change.comes.into_iter().chain([change.goes]).flatten();
-    let both = |e: usize| [e, candidates.twins[e] as usize].map(|e| candidates.ends[e] as usize);
-    if edges().flat_map(both).any(|v| touched[v]) {
+    if edges().flat_map(|e| candidates.both_ends(e)).any(|v| touched[v]) {
         touched[change.at] = true;
         return;
     }
-    for v in edges().flat_map(both) {
+    for v in edges().flat_map(|e| candidates.both_ends(e)) {
         touched[v] = true;
     }
     for e in change.comes.into_iter().flatten() {

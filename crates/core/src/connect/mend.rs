@@ -92,12 +92,11 @@ fn apply(
     touched: &mut HashSet<usize>,
 ) {
     let candidates = &found.candidates;
-    let both = |e: usize| [e, candidates.twins[e] as usize].map(|e| candidates.ends[e] as usize);
     let edges = || steps.iter().flat_map(|step| [step.comes, step.goes]).flatten();
-    if edges().flat_map(both).any(|v| touched.contains(&v)) {
+    if edges().flat_map(|e| candidates.both_ends(e)).any(|v| touched.contains(&v)) {
         return;
     }
-    touched.extend(edges().flat_map(both));
+    touched.extend(edges().flat_map(|e| candidates.both_ends(e)));
     for step in steps {
         for (e, is_in) in [(step.comes, true), (step.goes, false)] {
             if let Some(e) = e {
