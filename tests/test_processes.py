@@ -192,7 +192,7 @@ GROWING = """
 import resource
 import numpy as np
 import crustline as cl
-angles = np.arange(20_000) * 2 * np.pi / 20_000
+angles = np.arange(3_000) * 2 * np.pi / 3_000
 circle = cl.Delaunay(np.column_stack([np.cos(angles), np.sin(angles)]), threads=1)
 lattice = cl.Delaunay(np.argwhere(np.ones((100, 100))), threads=1)
 calls = {
@@ -203,7 +203,7 @@ calls = {
 for delaunay in (circle, lattice):
     cl.one_step_crust(delaunay)
 size = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
-resource.setrlimit(resource.RLIMIT_AS, (size + (64 << 20), -1))
+resource.setrlimit(resource.RLIMIT_AS, (size + (16 << 20), -1))
 for name, call in calls.items():
     try:
         print(name, len(call()))
@@ -220,7 +220,7 @@ def test_results_that_outgrow_memory_are_an_error_and_not_the_end_of_the_process
     beta, alpha, crust = done.stdout.splitlines()
     assert "MB of memory are needed" in beta
     assert alpha == "alpha_shape 396"
-    assert crust == "crust 20000"
+    assert crust == "crust 3000"
 
 
 # Eight of each at once, on sets of many sizes; every answer is that of a call by itself.
