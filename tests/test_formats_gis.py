@@ -282,6 +282,19 @@ def test_blocks_that_hold_themselves_or_unfold_without_end_are_refused(tmp_path:
         cl.read(tmp_path / "cycle.dxf")
 
 
+@pytest.mark.parametrize("x", ["0", "1e-300", "1e17", "1e100", "1e160", "1e400"])
+@pytest.mark.parametrize("radius", ["2", "1e17", "1e100", "1e160"])
+def test_a_circle_whose_numbers_tell_no_halves_apart_ends(x: str, radius: str) -> None:
+    """Halved until its chords are near, such a circle of a damaged file would have no end."""
+    lines = ["0", "SECTION", "2", "ENTITIES", "0", "CIRCLE", "8", "a", "10", x, "20", "3"]
+    content = "\n".join([*lines, "40", radius, "0", "ENDSEC", "0", "EOF", ""]).encode()
+    if float(x) < 1e150 and float(radius) < 1e150:
+        assert 4 <= len(cl.read(content, format="dxf")) < 1000
+    else:
+        with pytest.raises(cl.FormatError, match="CIRCLE on layer 'a' reaches beyond 1e\\+150"):
+            cl.read(content, format="dxf")
+
+
 # Tables and objects
 
 

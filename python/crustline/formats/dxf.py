@@ -26,6 +26,10 @@ from crustline.smooth import Splines
 _MOST_ENTITIES = 1_000_000
 #: How far a chord is from an arc or spline that it stands for, as a part of the curve's extent.
 _FLATNESS = 1 / 1000
+#: The same as a part of the largest coordinate, whose rounding a flatness must exceed.
+_RESOLUTION = 1e-12
+#: No coordinate of a curve may be as large, so that its halves are numbers.
+_FARTHEST = 1e150
 _UNITS = {"mm": 4, "cm": 5, "m": 6, "km": 7, "in": 1, "ft": 2, "": 0}
 _REFUSED = '<>/\\":;?*|=,`'
 _LAYERS = {"RINGS": 5, "HOLES": 1, "OPEN": 3, "POINTS": 7}
@@ -88,7 +92,7 @@ def _parts(source: Source, layer: str | None) -> Iterator[_Part]:
             known.add(on)
             if layer in (None, on):
                 found = True
-                for vertices, closed in _vertices(entity):
+                for vertices, closed in _vertices(entity, source):
                     yield on, entity.dxftype(), vertices, closed
     if layer is not None and not found:
         raise source.error(f"nothing is on a layer {layer!r:.60}: choose from {sorted(known)[:20]}")
@@ -147,7 +151,7 @@ def _refuse_explosions(drawing: Any, source: Source) -> None:
         raise source.error(f"its blocks unfold to {total:,} entities: explode fewer of them")
 
 
-def _vertices(entity: Any) -> Iterator[tuple[FloatArray, bool]]:
+def _vertices(entity: Any, source: Source) -> Iterator[tuple[FloatArray, bool]]:
     """Yield the vertices of an entity, and whether they are a ring; nothing for other entities."""
     kind = entity.dxftype()
     if kind == "POINT":
@@ -157,17 +161,23 @@ def _vertices(entity: Any) -> Iterator[tuple[FloatArray, bool]]:
     elif kind == "SPLINE" and len(entity.fit_points):
         yield _ring_or_line(_array(entity.fit_points), bool(entity.closed))
     elif kind in ("LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"):
-        yield from _flattened(entity)
+        yield from _flattened(entity, source)
 
 
-def _flattened(entity: Any) -> Iterator[tuple[FloatArray, bool]]:
+def _flattened(entity: Any, source: Source) -> Iterator[tuple[FloatArray, bool]]:
     from ezdxf import path
 
     for part in path.make_path(entity).sub_paths():
         corners = _array(part.control_vertices())
+        largest = float(np.abs(corners).max(initial=0.0))
+        if not largest < _FARTHEST:
+            what = f"{entity.dxftype()} on layer {entity.dxf.get('layer', '0')!r:.40}"
+            raise source.error(f"the {what} reaches beyond {_FARTHEST:g}: correct its numbers")
         if part.has_curves:
+            # Below what numbers of this size can tell, halving a curve would have no end.
             extent = float(np.ptp(corners, axis=0).max()) or 1.0
-            corners = _array(part.flattening(extent * _FLATNESS, segments=4))
+            flatness = max(extent * _FLATNESS, largest * _RESOLUTION)
+            corners = _array(part.flattening(flatness, segments=4))
         yield _ring_or_line(corners, bool(part.is_closed))
 
 
