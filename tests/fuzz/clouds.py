@@ -37,47 +37,85 @@ def las(kind: int, packed: bool, *, count: int = COUNT) -> bytes:
     return stream.getvalue()
 
 
-def copc() -> bytes:
-    """A COPC file: a root and its eight children, each with its points in a chunk of its own."""
+def copc(
+    kind: int = 6, *, root: int = 30, pages: int = 1, record: bytes = b"", **how: Any
+) -> bytes:
+    """A COPC file after its specification: a root and its eight children, each in its chunk.
+
+    Its point format, the points of the root (200 are all), whether the children have pages of
+    their own (2), another record before the points, and what `_chunks` takes.
+    """
+    child = (places() >= 4) @ [1, 2, 4]
+    child[:root] = -1
+    beside = struct.pack("<H16sHH32s", 0, b"LASF_Projection", 2112, len(record), b"") + record
+    start = 375 + 54 + 160 + (len(beside) if record else 0)
+    points, packing, chunks, entries = _chunks(kind, child, start, **how)
+    start += 54 + len(packing)
+    end = start + len(chunks)
+    listed = entries if root < 200 else entries[:1]
+    if pages > 1:  # entries that lead to a page of one entry for each child
+        at = end + 60 + 32 * len(listed)
+        links = [
+            each[:16] + struct.pack("<Qii", at + 32 * k, 32, -1)
+            for k, each in enumerate(listed[1:])
+        ]
+        listed = [listed[0], *links, *listed[1:]]
+    first = 32 * len(entries if root < 200 else entries[:1])
+    info = np.array([4, 4, 4, 4, 1], "<f8").tobytes()
+    info += struct.pack("<QQdd", end + 60, first, 0, 0) + b"\0" * 88
+    head = _head(points, start, end, kind | 128, 3 if record else 2)
+    head += struct.pack("<H16sHH32s", 0, b"copc", 1, 160, b"") + info
+    head += struct.pack("<H16sHH32s", 0, b"laszip encoded", 22204, len(packing), b"") + packing
+    content = b"".join(listed)
+    evlr = struct.pack("<H16sHQ32s", 0, b"copc", 1000, len(content), b"")
+    return head + (beside if record else b"") + chunks + evlr + content
+
+
+def _chunks(
+    kind: int, child: Any, start: int, step: float = 0.001, shift: float = 0.0, extra: int = 0,
+    order: int = 1,
+) -> tuple[Any, bytes, bytes, list[bytes]]:  # fmt: skip
+    """Points, the record that says how they are packed, their chunks, and the nodes' entries.
+
+    Steps of coordinates and where these start, bytes beside each point, and -1 for the order of
+    chunks in the file that is not that of the nodes.
+    """
     import laspy
     import lazrs
 
-    header = laspy.LasHeader(version="1.4", point_format=6)
-    header.scales, header.offsets = [0.001] * 3, [0.0] * 3
-    record = laspy.ScaleAwarePointRecord.zeros(200, header=header)
-    places = np.random.default_rng(0).uniform(0, 8, (200, 3))
-    record.x, record.y, record.z = places.T
-    child = (np.asarray(record.x) >= 4) + 2 * (np.asarray(record.y) >= 4)
-    child += 4 * (np.asarray(record.z) >= 4)
-    child[:30] = -1  # of the root
-    how = lazrs.LazVlr.new_for_compression(6, 0, True)
-    info = np.array([4, 4, 4, 4, 1], "<f8").tobytes()
-    start = 375 + 54 + 160 + 54 + len(how.record_data())
+    header = laspy.LasHeader(version="1.4", point_format=kind)
+    header.scales, header.offsets = [step] * 3, [shift] * 3
+    if extra:
+        header.add_extra_dim(laspy.ExtraBytesParams("extra", f"{extra}u1"))
+    points = laspy.ScaleAwarePointRecord.zeros(200, header=header)
+    points.x, points.y, points.z = places().T
+    how = lazrs.LazVlr.new_for_compression(kind, extra, True)
+    packing = how.record_data()
+    start += 54 + len(packing)
     packed = io.BytesIO(b"\0" * start)
     packed.seek(start)
     compressor = lazrs.LasZipCompressor(packed, how)
-    entries, keys = [], [(0, 0, 0, 0)]
-    keys += [(1, k & 1, k >> 1 & 1, k >> 2) for k in range(8)]
     compressor.reserve_offset_to_chunk_table()
-    for number, key in enumerate(keys):
-        rows = np.flatnonzero(child == number - 1)
-        before = packed.tell()
-        compressor.compress_many(record.array[rows].tobytes())
-        compressor.finish_current_chunk()
-        entries.append(struct.pack("<4iQii", *key, before, packed.tell() - before, len(rows)))
+    keys = [(0, 0, 0, 0), *((1, k & 1, k >> 1 & 1, k >> 2) for k in range(8))]
+    entries = [b""] * 9
+    for number in [*range(9)][::order]:
+        rows, before = np.flatnonzero(child == number - 1), packed.tell()
+        if len(rows):
+            compressor.compress_many(points.array[rows].tobytes())
+            compressor.finish_current_chunk()
+        size = packed.tell() - before
+        entries[number] = struct.pack("<4iQii", *keys[number], before * (size > 0), size, len(rows))
     compressor.done()
-    end = packed.seek(0, os.SEEK_END)
-    pages = b"".join(entries)
-    info += struct.pack("<QQdd", end + 60, len(pages), 0, 0) + b"\0" * 88
-    evlr = struct.pack("<H16sHQ32s", 0, b"copc", 1000, len(pages), b"") + pages
-    head = _head(record, header, start, end, 6 | 128)
-    vlrs = struct.pack("<H16sHH32s", 0, b"copc", 1, 160, b"") + info
-    vlrs += struct.pack("<H16sHH32s", 0, b"laszip encoded", 22204, len(how.record_data()), b"")
-    return head + vlrs + how.record_data() + packed.getvalue()[start:] + evlr
+    return points, packing, packed.getvalue()[start:], entries
 
 
-def _head(record: Any, header: Any, start: int, end: int, kind: int) -> bytes:
-    """The public header of LAS 1.4, with two records before and one after the points."""
+def places() -> np.ndarray[Any, np.dtype[np.float64]]:
+    """The points of COPC files, before they are rounded to steps."""
+    return np.random.default_rng(0).uniform(0, 8, (200, 3))
+
+
+def _head(record: Any, start: int, end: int, kind: int, records: int) -> bytes:
+    """The public header of LAS 1.4, with records before and one after the points."""
     count = len(record)
     low_high = np.ravel(
         [[np.max(each), np.min(each)] for each in (record.x, record.y, record.z)]
@@ -85,8 +123,9 @@ def _head(record: Any, header: Any, start: int, end: int, kind: int) -> bytes:
     head = struct.pack(
         "<4sHHIHH8sBB32s32sHH", b"LASF", 0, 16, 0, 0, 0, b"", 1, 4, b"", b"", 1, 2026
     )
-    head += struct.pack("<HIIBHI5I", 375, start, 2, kind, record.array.dtype.itemsize, 0, *[0] * 5)
-    head += struct.pack("<12d", *header.scales, *header.offsets, *low_high)
+    size = record.array.dtype.itemsize
+    head += struct.pack("<HIIBHI5I", 375, start, records, kind, size, 0, *[0] * 5)
+    head += struct.pack("<12d", *record.scales, *record.offsets, *low_high)
     head += struct.pack("<QQIQ15Q", 0, end, 1, count, *[0] * 15)
     return head
 

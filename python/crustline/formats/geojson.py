@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import chain, repeat
@@ -37,6 +38,7 @@ _DEPTHS = {
 }
 _LINES = ("LineString", "MultiLineString", "Polygon", "MultiPolygon")
 _TYPES = (*_DEPTHS, "GeometryCollection", "Feature", "FeatureCollection")
+_TYPE = re.compile(rb'^\{\s*"type"\s*:\s*"|"type"\s*:\s*"(?:' + "|".join(_TYPES).encode() + rb')"')
 _KINDS = {"polygon": "Polygon", "line": "LineString", "points": "MultiPoint"}
 _RESERVED = ("curve", "closed", "rows", "id", "confidence", "least_sure")
 
@@ -270,7 +272,7 @@ def _confidence(curves: Curves, feature: Feature) -> dict[str, Any]:
 
 def _sniff(head: bytes) -> bool:
     start = head.lstrip(b"\xef\xbb\xbf\x1e \t\r\n")
-    return start.startswith((b"{", b"[")) and b'"type"' in start
+    return start.startswith((b"{", b"[")) and _TYPE.search(start) is not None
 
 
 GEOJSON = Format(

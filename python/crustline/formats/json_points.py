@@ -11,7 +11,7 @@ from crustline.errors import FormatError, InputError
 from crustline.formats.format import Format
 from crustline.formats.geojson import is_geojson, read_document
 from crustline.formats.json_text import parse
-from crustline.formats.names import find_coordinates
+from crustline.formats.names import find_coordinates, find_pair
 from crustline.formats.options import COLUMNS, ENCODING
 from crustline.formats.source import Source
 from crustline.formats.values import as_column
@@ -27,7 +27,10 @@ def read(
     columns: Sequence[str | int] | None = None,
     encoding: str | None = None,
 ) -> Points:
-    """Return the points of [[x, y], …], [{"x": …, "y": …}, …], {"x": […], "y": […]}, or GeoJSON."""
+    """Return the points of [[x, y], …], [{"x": …, "y": …}, …], {"x": […], "y": […]}, or GeoJSON.
+
+    Frames of pandas may have any of its orientations.
+    """
     document = parse(source, encoding)
     rows = document if isinstance(document, list) else [document]
     if rows and all(map(is_geojson, rows)):
@@ -53,6 +56,7 @@ def _pairs(rows: list[Any], source: Source) -> Points:
 
 def _as_columns(document: Any, source: Source) -> dict[str, list[Any]]:
     """Return columns of a document that has them, or is records of them."""
+    document = _of_frame(document) if isinstance(document, dict) else document
     if (
         document
         and isinstance(document, dict)
@@ -66,6 +70,26 @@ def _as_columns(document: Any, source: Source) -> dict[str, list[Any]]:
         "the JSON is neither GeoJSON, which has a type, nor rows of x and y: "
         "write [[x, y], …] or records with x and y"
     )
+
+
+def _of_frame(document: dict[str, Any]) -> Any:
+    """Return records or columns of a frame as pandas writes it, in any of its orientations."""
+    rows, names = document.get("data"), document.get("columns")
+    if isinstance(rows, list) and "schema" in document:
+        return rows
+    if isinstance(rows, list) and _are(str, names) and _are(list, rows):
+        return [dict(zip(names, row, strict=False)) for row in rows]
+    values = list(document.values())
+    if not values or not _are(dict, values):
+        return document
+    if find_pair(list(document)) is None:
+        return values  # a record for each key
+    keys = dict.fromkeys(key for column in values for key in column)
+    return {name: [column.get(key) for key in keys] for name, column in document.items()}
+
+
+def _are(kind: type, values: Any) -> bool:
+    return isinstance(values, list) and all(isinstance(each, kind) for each in values)
 
 
 def _records(

@@ -21,6 +21,8 @@ _PAIRS = (
     ("east", "north"),
     ("e", "n"),
     ("este", "norte"),
+    ("est", "nord"),
+    ("ost", "nord"),
     ("rechtswert", "hochwert"),
     ("px", "py"),
     ("col", "row"),
@@ -29,7 +31,18 @@ _PAIRS = (
 )
 #: Names of sections, whose height is the second coordinate.
 _SECTIONS = (("x", "z"), ("r", "z"))
-_HEIGHTS = ("z", "elevation", "height", "elev", "altitude", "alt", "points 2")
+_HEIGHTS = (
+    "z",
+    "elevation",
+    "height",
+    "elev",
+    "altitude",
+    "alt",
+    "höhe",
+    "cota",
+    "quota",
+    "points 2",
+)
 _UNIT = re.compile(r"\s*(?:\[[^\]]*\]|\([^)]*\))\s*$")
 _BETWEEN = re.compile(r"(?<=[a-z])(?=[A-Z])|[\W_]+")
 _COORDINATE = re.compile(r"^([xyz]) ?coord(?:inate)?s?$")

@@ -242,6 +242,10 @@ def _from_arrays(
 ) -> Points:
     flat = {name: array for name, array in arrays.items() if array.ndim == 1}
     names = [name.removeprefix(_PREFIX) for name in flat]
+    tables = [name for name, array in arrays.items() if array.ndim == 2]
+    if columns is None and len(tables) == 1 and find_pair(names) is None:
+        renamed = {"points" if name in tables else name: arrays[name] for name in arrays}
+        return _with_columns(renamed, None, source)
     if columns is None and find_pair(names) is None:
         raise FormatError(
             f"{source.name} holds the arrays {quote_all(list(arrays))}: name the points x and y, "

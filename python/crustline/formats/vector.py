@@ -117,7 +117,7 @@ class _Driver:
     ) -> Curves:
         """Return the lines and rings of a layer."""
         with source.path(self.suffix) as path:
-            table, crs = self._table(source, path, layer, where)
+            table, crs = self._table(source, path, layer, where, lines=True)
         with source.named(), source.library("GDAL"):
             found = vertices_of(from_wkb(table.column(_GEOMETRY)))
             return found.curves(found.points(self._columns(table), crs))
@@ -128,12 +128,12 @@ class _Driver:
             return _layers(path)
 
     def _table(
-        self, source: Source, path: Path, layer: str | None, where: str | None
+        self, source: Source, path: Path, layer: str | None, where: str | None, lines: bool = False
     ) -> tuple[Any, str | None]:
         import pyogrio
 
         with source.library("GDAL"), _quiet():
-            chosen = self._choose(source, path, layer)
+            chosen = self._choose(source, path, layer, lines)
             try:
                 about, table = pyogrio.read_arrow(path, layer=chosen, where=where, encoding=None)
             except Exception as error:
@@ -145,7 +145,7 @@ class _Driver:
         names = [_GEOMETRY if each == name else each for each in table.column_names]
         return table.rename_columns(names), about["crs"]
 
-    def _choose(self, source: Source, path: Path, wanted: str | None) -> str:
+    def _choose(self, source: Source, path: Path, wanted: str | None, lines: bool) -> str:
         names = list(_kinds(path))
         if wanted is not None:
             if wanted in names:
@@ -154,8 +154,9 @@ class _Driver:
         full = names
         if len(names) > 1:  # counting takes time
             full = [each.name for each in _layers(path) if each.count != 0]
-        # GPX says the same again: the points of tracks and routes as points of their own.
-        full = [each for each in full if f"{each[:-1]}_points" not in full]
+        # GPX says the same twice: the points of tracks and routes are points of their own, too.
+        twice = {each: f"{each[:-1]}_points" for each in full if f"{each[:-1]}_points" in full}
+        full = [each for each in full if each not in (twice.values() if lines else twice)]
         if not full:
             raise source.error("no layer holds geometries: give a file with points or lines")
         if len(full) > 1:

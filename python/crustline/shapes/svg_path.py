@@ -119,7 +119,9 @@ def _pieces_of_file(svg: Any, name: str) -> list[FloatArray]:
     with source.library("svgelements"):
         text = io.BytesIO(ElementTree.tostring(root))
         elements = svg.SVG.parse(text, reify=True).elements()
-        return _pieces((svg.Path(each) for each in elements if isinstance(each, svg.Shape)), svg)
+        # A circle that is mirrored or turned has its transform still before it: abs applies it.
+        shapes = (each for each in elements if isinstance(each, svg.Shape))
+        return _pieces((abs(svg.Path(each)) for each in shapes), svg)
 
 
 def _refuse_expansion(root: Any, source: Any) -> None:
