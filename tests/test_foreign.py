@@ -140,6 +140,7 @@ def counted() -> Counter[str]:
     made = Counter(path.parent.name for path in FILES)
     made["copc"] = len(COPC)
     other = test_formats_foreign
+    cases: dict[str, Any]
     for key, cases in {"gpx": other.GPX, "kml": other.KMLS, "parquet": other.PARQUET,
                        "dxf": other.DXF, "excel": other.EXCEL}.items():  # fmt: skip
         made[key] += sum(each[1] == other.XY for each in cases.values())

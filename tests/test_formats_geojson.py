@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from crustline.curves import trace
+from crustline.curves import Curves, trace
 from crustline.errors import FormatError, FormatWarning, InputError
-from crustline.formats import read, write
+from crustline.formats import read, read_curves, write
 from crustline.points import Points
 
 FLOATS = st.floats(allow_nan=False, allow_infinity=False)
@@ -252,3 +252,73 @@ def test_reading_gives_back_what_was_written(tmp_path_factory, rows):
     if rows:
         assert again.z.tobytes() == points.z.tobytes()
         assert again.columns["text"].tolist() == texts.tolist()
+
+
+# Across the 180th meridian
+
+
+def across(shift: float = 0.0) -> Curves:
+    """A ring of 40 places around 180 degrees east, and a line across, with heights and names."""
+    t = np.arange(40) * (2 * np.pi / 40)
+    ring = np.c_[179.5 + shift + 3 * np.cos(t), -17 + 3 * np.sin(t)]
+    line = np.c_[np.linspace(170, 190, 9), np.linspace(0, 4, 9)]
+    xy = np.concatenate([ring, line])
+    xy[:, 0] = (xy[:, 0] + 180) % 360 - 180
+    edges = [*((k, (k + 1) % 40) for k in range(40)), *((k, k + 1) for k in range(40, 48))]
+    names = np.array([f"p{k}" for k in range(49)], dtype=object)
+    points = Points(xy, z=np.arange(49.0), columns={"name": names, "n": np.arange(49)},
+                    crs="EPSG:4326")  # fmt: skip
+    return trace(points, edges)
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.5, -0.5, 3.5, -2.5])
+def test_lines_across_the_180th_meridian_are_cut_and_read_back_whole(tmp_path, shift):
+    curves = across(shift)
+    write(curves, tmp_path / "fiji.geojson")
+    for each in json.loads((tmp_path / "fiji.geojson").read_text())["features"]:
+        kind, pieces = each["geometry"]["type"], each["geometry"]["coordinates"]
+        for piece in pieces if kind == "MultiLineString" else [pieces]:
+            assert len(piece) > 1
+            assert np.abs(np.diff([position[0] for position in piece])).max() <= 180
+    back = read_curves(tmp_path / "fiji.geojson")
+    assert back.closed.tolist() == [True, False]
+    assert [len(each) for each in back] == [40, 9]
+    rows = np.concatenate([each.indices for each in curves])
+    again = np.concatenate([each.indices for each in back])
+    order = np.argsort(curves.points.columns["n"][rows])
+    found = np.argsort(back.points.columns["n"][again])
+    for ours, theirs in (
+        (curves.points.xy, back.points.xy), (curves.points.z, back.points.z),
+        (curves.points.columns["name"], back.points.columns["name"]),
+    ):  # fmt: skip
+        assert (ours[rows][order] == theirs[again][found]).all()
+
+
+def test_a_line_along_the_180th_meridian_is_cut_where_it_changes_sides(tmp_path):
+    xy = [(178, 0), (180, 1), (180, 2), (-180, 2), (-180, 3), (-178, 4), (179, 5), (180, 6)]
+    points = Points(xy, crs="EPSG:4326")
+    write(trace(points, [(k, k + 1) for k in range(7)]), tmp_path / "a.geojson")
+    back = read_curves(tmp_path / "a.geojson")
+    assert back.points.xy[back.indices].tolist() == [list(map(float, each)) for each in xy]
+
+
+def test_what_is_no_longitude_is_not_cut(tmp_path):
+    points = Points([(500, 0), (-500, 0)], crs="EPSG:25832")
+    write(trace(points, [(0, 1)]), tmp_path / "a.geojson")
+    assert "MultiLineString" not in (tmp_path / "a.geojson").read_text()
+
+
+@pytest.mark.parametrize("added", ["[0]", "[9]", '"no"', "[true]", "[1.5]", "{}"])
+def test_a_column_called_cut_is_a_column(tmp_path, added):
+    """It says which positions were added only where these are on the 180th meridian."""
+    text = (
+        '{"type":"Feature","properties":{"cut":%s},"geometry":'
+        '{"type":"MultiLineString","coordinates":[[[1,2],[3,4]],[[5,6],[7,8]]]}}'
+    )
+    (tmp_path / "a.geojson").write_text(text % added)
+    assert len(read(tmp_path / "a.geojson")) == 4
+
+
+def test_polygons_across_the_180th_meridian_are_whole_and_it_is_said(tmp_path):
+    with pytest.warns(FormatWarning, match="180th meridian"):
+        write(across(), tmp_path / "a.geojson", polygons=True)

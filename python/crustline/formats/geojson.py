@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import warnings
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import chain, repeat
@@ -13,7 +14,8 @@ import numpy.typing as npt
 
 from crustline.arrays import FloatArray
 from crustline.curves import Curves, Feature
-from crustline.errors import FormatError
+from crustline.errors import FormatError, FormatWarning
+from crustline.formats.antimeridian import crosses, cut, uncut
 from crustline.formats.attributes import attributes_of, coordinates_with_height
 from crustline.formats.crs import geojson_member
 from crustline.formats.format import Format
@@ -24,6 +26,7 @@ from crustline.formats.target import Target
 from crustline.formats.values import as_column, as_json
 from crustline.formats.vertices import Vertices
 from crustline.points import Points
+from crustline.projection import is_geographic
 
 __all__ = ["GEOJSON", "is_geojson", "read_document"]
 
@@ -40,7 +43,7 @@ _LINES = ("LineString", "MultiLineString", "Polygon", "MultiPolygon")
 _TYPES = (*_DEPTHS, "GeometryCollection", "Feature", "FeatureCollection")
 _TYPE = re.compile(rb'^\{\s*"type"\s*:\s*"|"type"\s*:\s*"(?:' + "|".join(_TYPES).encode() + rb')"')
 _KINDS = {"polygon": "Polygon", "line": "LineString", "points": "MultiPoint"}
-_RESERVED = ("curve", "closed", "rows", "id", "confidence", "least_sure")
+_RESERVED = ("curve", "closed", "rows", "id", "confidence", "least_sure", "cut")
 
 
 @dataclass
@@ -102,15 +105,19 @@ def _add_feature(found: _Features, feature: Any, where: str) -> None:
     source = found.vertices.source
     if not isinstance(feature, dict) or feature.get("type") != "Feature":
         raise source.error("it is no Feature: it needs type, geometry and properties", where)
-    before = len(found.vertices.positions)
-    try:
-        _add_geometry(found.vertices, feature.get("geometry"), where)
-    except RecursionError:
-        raise source.error("the geometries are nested too deep: flatten them", where) from None
+    before, geometry = len(found.vertices.positions), feature.get("geometry")
     properties = feature.get("properties") or {}
     if not isinstance(properties, dict):
         fault = f"the properties are {properties!r:.40}, not an object: correct them"
         raise source.error(fault, where)
+    whole = uncut(geometry, properties.get("cut"))
+    if whole is not None:
+        geometry = whole
+        properties = {name: value for name, value in properties.items() if name != "cut"}
+    try:
+        _add_geometry(found.vertices, geometry, where)
+    except RecursionError:
+        raise source.error("the geometries are nested too deep: flatten them", where) from None
     if "id" in feature:
         properties = {"id": feature["id"], **properties}
     found.counts.append(len(found.vertices.positions) - before)
@@ -204,14 +211,39 @@ def _crs(document: dict[str, Any]) -> str | None:
 
 
 def write_curves(curves: Curves, target: Target, *, polygons: bool = False) -> None:
-    """Write the curves as a FeatureCollection, a line of text for each feature."""
-    target.write(collection_of(curves, polygons=polygons))
+    """Write the curves as a FeatureCollection, a line of text for each feature.
+
+    Lines in longitude and latitude are cut where they cross the 180th meridian (RFC 7946, 3.1.9).
+    """
+    features = list(_features_of(curves, polygons))
+    if is_geographic(curves.points):
+        features = [_cut(feature, target) for feature in features]
+    target.write(_collection(attributes_of(curves).crs, map(dump, features)))
 
 
 def collection_of(curves: Curves, *, polygons: bool) -> str:
-    """Return the text of the FeatureCollection of curves."""
+    """Return the text of the FeatureCollection of curves, whole across the 180th meridian."""
     features = map(dump, _features_of(curves, polygons))
     return _collection(attributes_of(curves).crs, features)
+
+
+def _cut(feature: dict[str, Any], target: Target) -> dict[str, Any]:
+    """Return a feature as lines on either side of the 180th meridian, if it crosses that."""
+    geometry = feature["geometry"]
+    kind, coordinates = geometry["type"], geometry["coordinates"]
+    if kind == "Polygon" and any(map(crosses, coordinates)):
+        warnings.warn(
+            f"{target.name}: polygons across the 180th meridian are not cut there, as RFC 7946 "
+            "asks for: write lines",
+            FormatWarning,
+            stacklevel=2,
+        )
+    if kind != "LineString" or not crosses(coordinates):
+        return feature
+    pieces, added = cut(coordinates)
+    properties = feature["properties"] | {"cut": added}
+    geometry = {"type": "MultiLineString", "coordinates": pieces}
+    return {"type": "Feature", "properties": properties, "geometry": geometry}
 
 
 def write_points(points: Points, target: Target) -> None:

@@ -74,10 +74,10 @@ def _as_columns(document: Any, source: Source) -> dict[str, list[Any]]:
 
 def _of_frame(document: dict[str, Any]) -> Any:
     """Return records or columns of a frame as pandas writes it, in any of its orientations."""
-    rows, names = document.get("data"), document.get("columns")
-    if isinstance(rows, list) and "schema" in document:
+    rows, names = document.get("data", []), document.get("columns", [])
+    if rows and isinstance(rows, list) and "schema" in document:
         return rows
-    if isinstance(rows, list) and _are(str, names) and _are(list, rows):
+    if rows and _are(str, names) and _are(list, rows):
         return [dict(zip(names, row, strict=False)) for row in rows]
     values = list(document.values())
     if not values or not _are(dict, values):
