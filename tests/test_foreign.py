@@ -140,9 +140,11 @@ def counted() -> Counter[str]:
     made = Counter(path.parent.name for path in FILES)
     made["copc"] = len(COPC)
     other = test_formats_foreign
-    cases: dict[str, Any]
-    for key, cases in {"gpx": other.GPX, "kml": other.KMLS, "parquet": other.PARQUET,
-                       "dxf": other.DXF, "excel": other.EXCEL}.items():  # fmt: skip
+    tables: dict[str, dict[str, Any]] = {
+        "gpx": other.GPX, "kml": other.KMLS, "parquet": other.PARQUET,
+        "dxf": dict(other.DXF), "excel": dict(other.EXCEL),
+    }  # fmt: skip
+    for key, cases in tables.items():
         made[key] += sum(each[1] == other.XY for each in cases.values())
     for key in ("shp", "gpkg", "fgb"):
         made[key] += len(other.KINDS)
