@@ -1,6 +1,7 @@
 """A contender at work: one process that holds the points and runs when it is told to."""
 
 import json
+import os
 import select
 import subprocess
 import tempfile
@@ -28,6 +29,7 @@ class Worker:
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=self.errors,
+            env=os.environ | {"RAYON_NUM_THREADS": str(contender.threads)},
             text=True,
         )
         assert self.process.stdout is not None

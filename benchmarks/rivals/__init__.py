@@ -6,7 +6,7 @@ points to any answer, and the edges of that answer. Programs in other languages 
 """
 
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from ..data import BUILD
@@ -16,11 +16,15 @@ Task = Literal["delaunay", "crust"]
 
 @dataclass(frozen=True)
 class Contender:
-    """A name for the tables, what it computes, and the command; the path of points follows."""
+    """A name for the tables, what it computes, and the command; the path of points follows.
+
+    `threads` is how many rayon is to use; the others have one.
+    """
 
     name: str
     task: Task
     command: tuple[str, ...]
+    threads: int = 1
 
     @property
     def label(self) -> str:
@@ -35,7 +39,7 @@ def python(name: str, task: Task, module: str, method: str) -> Contender:
 def crustline(task: Task, threads: int) -> Contender:
     plural = "s" * (threads > 1)
     name = f"crustline, {threads} thread{plural}"
-    return python(name, task, "crustline", f"{task}-{threads}")
+    return replace(python(name, task, "crustline", task), threads=threads)
 
 
 CGAL = str(BUILD / "cgal")

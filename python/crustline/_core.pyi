@@ -70,6 +70,7 @@ def select(
     threads: int | None = None,
     progress: _Progress | None = None,
 ) -> _Integers: ...
+def select_among(points: _Floats, method: str, parameters: list[float]) -> _Integers: ...
 def select_by_group(
     points: _Floats,
     rows: _Integers,

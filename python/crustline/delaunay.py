@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from crustline import _core
 from crustline.arrays import IntArray, read_only
 from crustline.notebook import table
-from crustline.points import Points, as_carried
+from crustline.points import Points, as_carried, as_coordinates
 from crustline.scalars import as_whole
 
 if TYPE_CHECKING:
@@ -235,6 +235,17 @@ def as_threads(threads: object) -> int:
 def as_delaunay(points: ArrayLike | Delaunay) -> Delaunay:
     """Return a triangulation as it is, and else the one of the points."""
     return points if isinstance(points, Delaunay) else Delaunay(points)
+
+
+def select(points: ArrayLike | Delaunay, method: str, *parameters: float) -> IntArray:
+    """Return the edges that a method of the core selects, with its parameters in order.
+
+    Of points that are no triangulation nothing is kept, and no copy is made. Like any function of
+    NumPy it counts on it that no other thread changes the array meanwhile.
+    """
+    if isinstance(points, Delaunay):
+        return points.select(method, *parameters)
+    return _core.select_among(as_coordinates(points), method, list(map(float, parameters)))
 
 
 def points_and_how(points: ArrayLike | Delaunay) -> tuple[Points, How]:

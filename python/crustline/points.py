@@ -226,11 +226,22 @@ def as_carried(points: Any) -> Points:
     """Return what a caller gives as points, with all that it carries: frames and tables, too."""
     if isinstance(points, Points):
         return points
-    if hasattr(points, "__arrow_c_stream__") or hasattr(points, "geom_type"):
+    if _is_table(points):
         from crustline.formats.objects import points_of_object
 
         return points_of_object(points)
     return Points(points)
+
+
+def as_coordinates(points: Any) -> FloatArray:
+    """Return the coordinates of what a caller gives as points: the caller's own where they fit."""
+    if isinstance(points, Points) or _is_table(points):
+        return as_carried(points).xy
+    return as_points(points)
+
+
+def _is_table(points: Any) -> bool:
+    return hasattr(points, "__arrow_c_stream__") or hasattr(points, "geom_type")
 
 
 def own_points(

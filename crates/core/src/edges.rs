@@ -3,7 +3,7 @@
 use crate::delaunay::{Delaunay, Edge};
 use crate::error::Result;
 use crate::memory;
-use crate::parts::{GRAIN, each, in_parts, split};
+use crate::parts::{GRAIN, each, in_parts, scatter, split};
 use crate::progress::{Progress, Stage};
 
 /// Memory for each vertex at the peak, if up to three edges each are kept and sorted.
@@ -53,47 +53,40 @@ pub fn rows(delaunay: &Delaunay, p: u32, q: u32) -> [u32; 2] {
     [i.min(j), i.max(j)]
 }
 
+/// Rows whose edges one task sorts, in the first cache; of a great many rows, more.
+const ROWS: usize = 1 << 12;
+/// The most tasks.
+const MOST_TASKS: usize = 1 << 12;
+
 /// Put `parts` of edges on `rows` rows into one sorted list.
 ///
-/// Counting by the first row and then sorting the few edges of each: linear, where a comparison sort is not. A range of rows
-/// is one task; reading all edges for each range costs less than writing all over memory.
+/// Counting by the first row, in two passes, and then sorting the few edges of each: linear, where a comparison sort is not.
 #[must_use]
 pub fn sort(parts: &[Edges], rows: usize) -> Edges {
-    let count: usize = parts.iter().map(Vec::len).sum();
-    let ranges = if count < FEW { 1 } else { RANGES };
-    let width = rows / ranges + 1;
-    let mut counts = vec![0; ranges];
-    // Inner iteration, here and below: `for` over `flatten` takes twice the time.
-    parts.iter().flatten().for_each(|edge| counts[edge[0] as usize / width] += 1);
-    let mut sorted = vec![[0, 0]; count];
-    each(split(&mut sorted, counts), |range, sorted| {
-        sort_range(parts, range * width, width, sorted);
-    });
-    sorted
+    let width = rows.min(ROWS).max(rows / MOST_TASKS).next_power_of_two();
+    let shift = width.trailing_zeros();
+    let bucket = |edge: &[u32; 2]| edge[0] as usize >> shift;
+    let (mut edges, counts) = scatter(parts, [0, 0], (rows >> shift) + 1, bucket);
+    each(split(&mut edges, counts), |k, edges| sort_rows(edges, k << shift, width));
+    edges
 }
 
-/// Edges below which one task sorts all.
-const FEW: usize = 1 << 15;
-/// Ranges of rows, so tasks, that more edges are sorted in.
-const RANGES: usize = 2;
-
-/// Put the edges whose first row is one of the `width` rows from `first` into `sorted`.
-fn sort_range(parts: &[Edges], first: usize, width: usize, sorted: &mut [[u32; 2]]) {
-    let within = |&[i, j]: &[u32; 2]| {
-        let row = (i as usize).wrapping_sub(first);
-        (row < width).then_some((row, [i, j]))
-    };
+/// Sort the edges whose first row is one of the `width` rows from `first`.
+fn sort_rows(edges: &mut [[u32; 2]], first: usize, width: usize) {
+    let row = |edge: &[u32; 2]| edge[0] as usize - first;
     let mut ends = vec![0u32; width + 1];
-    parts.iter().flatten().filter_map(within).for_each(|(row, _)| ends[row + 1] += 1);
+    for edge in &*edges {
+        ends[row(edge) + 1] += 1;
+    }
     for row in 0..width {
         ends[row + 1] += ends[row];
     }
-    parts.iter().flatten().filter_map(within).for_each(|(row, edge)| {
-        let end = &mut ends[row];
-        sorted[*end as usize] = edge;
+    for edge in edges.to_vec() {
+        let end = &mut ends[row(&edge)];
+        edges[*end as usize] = edge;
         *end += 1;
-    });
-    for same in sorted.chunk_by_mut(|a, b| a[0] == b[0]).filter(|same| same.len() > 1) {
+    }
+    for same in edges.chunk_by_mut(|a, b| a[0] == b[0]).filter(|same| same.len() > 1) {
         same.sort_unstable();
     }
 }

@@ -4,12 +4,18 @@ use crate::error::{Error, Result};
 use std::hint::black_box;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
+/// Bytes that are not asked for: to ask the system takes as long as many a small call.
+const LITTLE: usize = 1 << 20;
+
 /// Is there memory for `bytes_each` of `count` items, all at one time?
 ///
 /// # Errors
 /// How much is needed, if there is not.
 pub fn check(count: usize, bytes_each: usize) -> Result<()> {
     let bytes = count.saturating_mul(bytes_each);
+    if bytes < LITTLE {
+        return Ok(());
+    }
     // Threads and what lies between allocations take some, too.
     let needed = bytes.saturating_add(bytes / 8);
     let mut room = Vec::<u8>::new();

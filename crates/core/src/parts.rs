@@ -12,6 +12,9 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 /// Items in a part, where there is no reason for another number.
 pub const GRAIN: usize = 1 << 12;
 
+/// Tasks that all parts are shared out among, where each has to know what others do.
+const TASKS: usize = 8;
+
 /// What `work` makes of each successive range of `grain` of the numbers below `count`.
 ///
 /// # Errors
@@ -30,6 +33,7 @@ pub fn in_parts<T: Send>(
         Ok(made)
     };
     match count.div_ceil(grain) {
+        0 => Ok(Vec::new()),
         1 => Ok(vec![part(0)?]),
         parts => (0..parts).into_par_iter().map(part).collect(),
     }
@@ -126,6 +130,38 @@ pub fn sort_by<T: Send>(
         });
     }
     progress.advance(0)
+}
+
+/// Move the items of `parts` into `buckets`, those of each in their order; return all, and how many are in each bucket.
+pub fn scatter<T: Copy + Send + Sync>(
+    parts: &[Vec<T>],
+    empty: T,
+    buckets: usize,
+    bucket: impl Fn(&T) -> usize + Sync,
+) -> (Vec<T>, Vec<usize>) {
+    if buckets == 1 {
+        let all = parts.concat();
+        let count = all.len();
+        return (all, vec![count]);
+    }
+    let groups: Vec<&[Vec<T>]> = parts.chunks(parts.len().div_ceil(TASKS).max(1)).collect();
+    let mut counts = vec![vec![0; buckets]; groups.len()];
+    // Inner iteration, here and below: `for` over `flatten` takes twice the time.
+    each(groups.iter().zip(&mut counts).collect(), |_, (group, counts)| {
+        group.iter().flatten().for_each(|item| counts[bucket(item)] += 1);
+    });
+    let within = |b: usize| counts.iter().map(move |counts| counts[b]);
+    let mut all = vec![empty; parts.iter().map(Vec::len).sum()];
+    let mut places: Vec<_> = groups.iter().map(|_| Vec::with_capacity(buckets)).collect();
+    for (k, place) in split(&mut all, (0..buckets).flat_map(within)).into_iter().enumerate() {
+        places[k % groups.len()].push(place.iter_mut());
+    }
+    each(groups.iter().zip(places).collect(), |_, (group, mut places)| {
+        group.iter().flatten().for_each(|item| {
+            *places[bucket(item)].next().expect("as many as were counted") = *item;
+        });
+    });
+    (all, (0..buckets).map(|b| within(b).sum()).collect())
 }
 
 /// Split `slice` into successive parts of these lengths, which sum to no more than its own.

@@ -37,7 +37,7 @@ mod _core {
     #[pymodule_export]
     use crate::medial_axis::medial_axis;
     #[pymodule_export]
-    use crate::methods::select;
+    use crate::methods::{select, select_among};
     #[pymodule_export]
     use crate::nesting::shells;
     #[pymodule_export]

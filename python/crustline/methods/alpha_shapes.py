@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crustline.arrays import FloatArray, IntArray, as_points
-from crustline.delaunay import Delaunay, as_delaunay, points_and_how
+from crustline.delaunay import Delaunay, points_and_how, select
 from crustline.errors import InputError
 from crustline.scalars import as_positive
 
@@ -60,7 +60,7 @@ def alpha_shape(
     [[0, 3], [0, 4], [1, 2], [1, 4], [2, 4], [3, 4]]
     """
     size = as_positive("radius", radius)
-    return as_delaunay(points).select("alpha-shape", size)
+    return select(points, "alpha-shape", size)
 
 
 def a_shape(

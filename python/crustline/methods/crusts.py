@@ -5,7 +5,7 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from crustline.arrays import IntArray, as_edges
-from crustline.delaunay import Delaunay, as_delaunay
+from crustline.delaunay import Delaunay, select
 
 
 def crust(points: ArrayLike | Delaunay) -> IntArray:
@@ -48,8 +48,9 @@ def crust(points: ArrayLike | Delaunay) -> IntArray:
     >>> crust([(0, 0), (1, 0), (1, 1), (0, 1)]).tolist()
     [[0, 1], [0, 3], [1, 2], [2, 3]]
     """
-    delaunay = as_delaunay(points)
-    return delaunay.cached("crust", lambda: delaunay.select("crust"))
+    if isinstance(points, Delaunay):
+        return points.cached("crust", lambda: points.select("crust"))
+    return select(points, "crust")
 
 
 def as_selected(delaunay: Delaunay, edges: ArrayLike | None) -> IntArray:
@@ -94,7 +95,7 @@ def one_step_crust(points: ArrayLike | Delaunay) -> IntArray:
     >>> one_step_crust([(0, 0), (1, 0), (1, 1), (0, 1)]).tolist()
     [[0, 1], [0, 3], [1, 2], [2, 3]]
     """
-    return as_delaunay(points).select("one-step-crust")
+    return select(points, "one-step-crust")
 
 
 def rcgh(points: ArrayLike | Delaunay) -> IntArray:
@@ -134,7 +135,7 @@ def rcgh(points: ArrayLike | Delaunay) -> IntArray:
     >>> rcgh([(0, 0), (4, 0), (8, 0), (0, 1), (4, 1), (8, 1)]).tolist()
     [[0, 1], [0, 3], [1, 2], [1, 4], [2, 5], [3, 4], [4, 5]]
     """
-    return as_delaunay(points).select("rcgh")
+    return select(points, "rcgh")
 
 
 def nn_crust(points: ArrayLike | Delaunay) -> IntArray:
@@ -176,4 +177,4 @@ def nn_crust(points: ArrayLike | Delaunay) -> IntArray:
     >>> nn_crust([(0, 0), (3, 0), (5, 2), (3, 5), (0, 3)]).tolist()
     [[0, 1], [0, 4], [1, 2], [2, 3], [3, 4]]
     """
-    return as_delaunay(points).select("nn-crust")
+    return select(points, "nn-crust")

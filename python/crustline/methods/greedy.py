@@ -5,7 +5,7 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from crustline.arrays import IntArray
-from crustline.delaunay import Delaunay, as_delaunay
+from crustline.delaunay import Delaunay, select
 
 
 def crawl(points: ArrayLike | Delaunay) -> IntArray:
@@ -54,7 +54,7 @@ def crawl(points: ArrayLike | Delaunay) -> IntArray:
     >>> crawl([(0, 0), (1, 0), (2, 1), (1, 2), (0, 2), (-1, 1)]).tolist()
     [[0, 1], [0, 5], [1, 2], [2, 3], [3, 4], [4, 5]]
     """
-    return as_delaunay(points).select("crawl")
+    return select(points, "crawl")
 
 
 def peel(points: ArrayLike | Delaunay) -> IntArray:
@@ -105,4 +105,4 @@ def peel(points: ArrayLike | Delaunay) -> IntArray:
     >>> peel([(0, 0), (2, 0), (2, 2), (0, 2), (3, 1)]).tolist()
     [[0, 1], [0, 3], [1, 4], [2, 3], [2, 4]]
     """
-    return as_delaunay(points).select("peel")
+    return select(points, "peel")

@@ -7,7 +7,7 @@ import math
 from numpy.typing import ArrayLike
 
 from crustline.arrays import IntArray
-from crustline.delaunay import Delaunay, as_delaunay
+from crustline.delaunay import Delaunay, select
 from crustline.scalars import as_real
 
 #: Adjacent samples are seen from the one between them under at least this angle in a 0.66-sample.
@@ -60,7 +60,7 @@ def hnn_crust(points: ArrayLike | Delaunay) -> IntArray:
     >>> hnn_crust([(-2, 3), (-1.3, 2), (-0.6, 1), (0, 0), (0.6, 1), (1.3, 2), (2, 3)]).tolist()
     [[0, 1], [1, 2], [2, 3], [3, 4], [4, 5], [5, 6]]
     """
-    return as_delaunay(points).select("hnn-crust")
+    return select(points, "hnn-crust")
 
 
 def compatible_crust(points: ArrayLike | Delaunay, angle: float = COMPATIBLE) -> IntArray:
@@ -121,7 +121,7 @@ def compatible_crust(points: ArrayLike | Delaunay, angle: float = COMPATIBLE) ->
     [[0, 1], [0, 7], [1, 2], [2, 3], [3, 4], [4, 5], [5, 6], [6, 7]]
     """
     least = as_real("angle", angle, "in radians, between 0 and pi", lambda x: 0 < x < math.pi)
-    return as_delaunay(points).select("compatible-crust", 1 / math.tan(least))
+    return select(points, "compatible-crust", 1 / math.tan(least))
 
 
 def sig_delaunay(points: ArrayLike | Delaunay) -> IntArray:
@@ -168,4 +168,4 @@ def sig_delaunay(points: ArrayLike | Delaunay) -> IntArray:
     >>> sig_delaunay([(0, 0), (1, 0), (2, 1), (5, 1), (6, 1)]).tolist()
     [[0, 1], [0, 2], [1, 2], [3, 4]]
     """
-    return as_delaunay(points).select("sig-delaunay")
+    return select(points, "sig-delaunay")

@@ -8,7 +8,7 @@ from typing import Literal
 from numpy.typing import ArrayLike
 
 from crustline.arrays import IntArray
-from crustline.delaunay import Delaunay, as_delaunay
+from crustline.delaunay import Delaunay, select
 from crustline.scalars import as_choice, as_positive, as_real
 from crustline.theory import BETA
 
@@ -80,7 +80,7 @@ def beta_skeleton(
     """
     size = as_positive("beta", beta)
     as_choice("kind", kind, ("circle", "lune"))
-    return as_delaunay(points).select("beta-skeleton", size, kind == "lune")
+    return select(points, "beta-skeleton", size, kind == "lune")
 
 
 def gabriel(points: ArrayLike | Delaunay) -> IntArray:
@@ -120,7 +120,7 @@ def gabriel(points: ArrayLike | Delaunay) -> IntArray:
     >>> gabriel([(0, 0), (4, 0), (2, 1), (2, 9)]).tolist()
     [[0, 2], [1, 2], [2, 3]]
     """
-    return as_delaunay(points).select("gabriel")
+    return select(points, "gabriel")
 
 
 def relative_neighborhood(points: ArrayLike | Delaunay) -> IntArray:
@@ -160,7 +160,7 @@ def relative_neighborhood(points: ArrayLike | Delaunay) -> IntArray:
     >>> relative_neighborhood([(0, 0), (4, 0), (2, 3), (2, 9)]).tolist()
     [[0, 2], [1, 2], [2, 3]]
     """
-    return as_delaunay(points).select("relative-neighborhood")
+    return select(points, "relative-neighborhood")
 
 
 def gamma_graph(
@@ -224,7 +224,7 @@ def gamma_graph(
     True
     """
     sizes = [as_real(name, c, "from -1 to 1", _is_size) for name, c in (("c0", c0), ("c1", c1))]
-    return as_delaunay(points).select("gamma-graph", *sizes)
+    return select(points, "gamma-graph", *sizes)
 
 
 def _is_size(c: float) -> bool:
@@ -284,4 +284,4 @@ def crossing_angle_graph(
     """
     number = as_real("angle", angle, "in radians, above 0 and below pi", lambda x: 0 < x < math.pi)
     cotangent = math.tan(math.pi / 2 - number)
-    return as_delaunay(points).select("crossing-angle-graph", cotangent)
+    return select(points, "crossing-angle-graph", cotangent)

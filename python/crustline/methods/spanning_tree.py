@@ -5,7 +5,7 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from crustline.arrays import IntArray
-from crustline.delaunay import Delaunay, as_delaunay
+from crustline.delaunay import Delaunay, select
 
 
 def minimum_spanning_tree(points: ArrayLike | Delaunay) -> IntArray:
@@ -45,4 +45,4 @@ def minimum_spanning_tree(points: ArrayLike | Delaunay) -> IntArray:
     >>> minimum_spanning_tree([(0, 0), (1, 0), (1, 1), (0, 1)]).tolist()
     [[0, 1], [0, 3], [2, 3]]
     """
-    return as_delaunay(points).select("minimum-spanning-tree")
+    return select(points, "minimum-spanning-tree")

@@ -7,7 +7,7 @@ import math
 from numpy.typing import ArrayLike
 
 from crustline.arrays import IntArray
-from crustline.delaunay import Delaunay, as_delaunay
+from crustline.delaunay import Delaunay, select
 from crustline.scalars import as_positive, as_real
 
 
@@ -66,7 +66,7 @@ def conservative_crust(points: ArrayLike | Delaunay, ratio: float = 1.0) -> IntA
     >>> conservative_crust(points, 1.5).tolist()
     [[0, 1], [1, 2], [3, 4]]
     """
-    return as_delaunay(points).select("conservative-crust", as_positive("ratio", ratio))
+    return select(points, "conservative-crust", as_positive("ratio", ratio))
 
 
 def gathan(points: ArrayLike | Delaunay, angle: float = 1.4, ratio: float = 1.0) -> IntArray:
@@ -124,4 +124,4 @@ def gathan(points: ArrayLike | Delaunay, angle: float = 1.4, ratio: float = 1.0)
         "angle", angle, "in radians, from 0 to pi / 2", lambda x: 0 <= x <= math.pi / 2
     )
     least = as_real("ratio", ratio, "a finite number of at least 0", lambda x: x >= 0)
-    return as_delaunay(points).select("gathan", math.sin(steepest), least)
+    return select(points, "gathan", math.sin(steepest), least)

@@ -13,14 +13,15 @@ use super::zip::merge;
 use crate::error::Result;
 use crate::point::Point;
 use crate::progress::Progress;
+use crate::space::order::Grid;
 
 /// The vertices of all cells.
 #[derive(Clone, Copy)]
 pub struct Vertices<'a> {
     /// Distinct points along the Z-order curve.
     pub points: &'a [Point],
-    /// Their codes.
-    pub codes: &'a [u64],
+    /// What gives their codes.
+    pub grid: &'a Grid,
     /// The most vertices of a leaf, which is one task, and one report of progress.
     pub leaf: usize,
 }
@@ -32,17 +33,16 @@ pub fn triangulate(
     progress: &Progress,
 ) -> Result<Extremes<u32>> {
     let range = graph.range();
-    let codes = &vertices.codes[range.clone()];
+    let points = &vertices.points[range.clone()];
     if range.len() <= vertices.leaf {
-        let points = &vertices.points[range.clone()];
-        let extremes = Leaf::with(points, codes, |leaf, extremes| {
+        let extremes = Leaf::with(points, vertices.grid, |leaf, extremes| {
             graph.load(leaf);
             extremes.map(|vertex| globally(vertex, range.start))
         });
         progress.advance(range.len())?;
         return Ok(extremes);
     }
-    let (middle, cut) = Cut::of(codes);
+    let (middle, cut) = Cut::of(points, |&point| vertices.grid.code(point));
     let [mut low, mut high] = graph.halves(range.start + middle);
     let (a, b) = rayon::join(
         || triangulate(vertices, &mut low, progress),

@@ -13,15 +13,16 @@ pub enum Cut {
 }
 
 impl Cut {
-    /// Where, and how, to cut a cell of vertices with these `codes`: at the leading bit in which they differ.
-    pub fn of(codes: &[u64]) -> (usize, Self) {
-        let differing = codes[0] ^ codes[codes.len() - 1];
+    /// Where, and how, to cut a cell of vertices in the order of their codes: at the leading bit in which these differ.
+    #[inline]
+    pub fn of<T>(vertices: &[T], code: impl Fn(&T) -> u64) -> (usize, Self) {
+        let differing = code(&vertices[0]) ^ code(&vertices[vertices.len() - 1]);
         if differing == 0 {
             // Too close together for the code; these are sorted by x, then y.
-            return (codes.len() / 2, Self::Vertical);
+            return (vertices.len() / 2, Self::Vertical);
         }
         let bit = differing.ilog2();
-        let middle = codes.partition_point(|code| code >> bit & 1 == 0);
+        let middle = vertices.partition_point(|vertex| code(vertex) >> bit & 1 == 0);
         (middle, if bit % 2 == 1 { Self::Vertical } else { Self::Horizontal })
     }
 

@@ -8,6 +8,7 @@ use super::rings::{Graph, Index, Rings};
 use super::zip::merge;
 use crate::exact::predicates::is_left;
 use crate::point::{Point, lexicographic};
+use crate::space::order::Grid;
 use std::cell::RefCell;
 
 /// As many as 16-bit numbers are.
@@ -34,19 +35,21 @@ pub struct Leaf {
 }
 
 thread_local! {
-    /// The leaf of this thread; of its memory only what is used is ever touched.
-    static LEAF: RefCell<Leaf> = RefCell::new(Leaf::new());
+    /// The leaf of this thread, and the codes of its vertices; of its memory only what is used is ever touched.
+    static LEAF: RefCell<(Leaf, Vec<u64>)> = RefCell::new((Leaf::new(), Vec::new()));
 }
 
 impl Leaf {
-    /// Triangulate the vertices `points`, distinct and along the Z-order curve, with these `codes`; `finish` gets the graph
-    /// and the extremes of its hull.
+    /// Triangulate the vertices `points`, distinct and along the Z-order curve of `grid`; `finish` gets the graph and the
+    /// extremes of its hull.
     pub fn with<T>(
         points: &[Point],
-        codes: &[u64],
+        grid: &Grid,
         finish: impl FnOnce(&Self, Extremes<u16>) -> T,
     ) -> T {
-        LEAF.with_borrow_mut(|leaf| {
+        LEAF.with_borrow_mut(|(leaf, codes)| {
+            codes.clear();
+            codes.extend(points.iter().map(|&point| grid.code(point)));
             leaf.points[..points.len()].copy_from_slice(points);
             (leaf.used, leaf.free) = (0, NONE);
             let extremes = leaf.triangulate(codes, 0);
@@ -70,6 +73,17 @@ impl Leaf {
         self.used
     }
 
+    /// A half-edge from each of the `count` vertices, if it has one, and a 0 and then the number of half-edges from each.
+    pub fn origins(&self, count: usize) -> (Vec<u16>, Vec<u32>) {
+        let (mut first, mut degrees) = (vec![0; count], vec![0; count + 1]);
+        for e in (0..self.used).filter(|&e| !self.is_free(e)) {
+            let origin = self.origin(e) as usize;
+            first[origin] = e;
+            degrees[origin + 1] += 1;
+        }
+        (first, degrees)
+    }
+
     /// Was `e` given back?
     #[inline]
     pub fn is_free(&self, e: u16) -> bool {
@@ -83,7 +97,7 @@ impl Leaf {
             2 => self.segment([first, first + 1]),
             3 => self.triangle([first, first + 1, first + 2]),
             _ => {
-                let (middle, cut) = Cut::of(codes);
+                let (middle, cut) = Cut::of(codes, |&code| code);
                 let low = self.triangulate(&codes[..middle], first);
                 let high = self.triangulate(&codes[middle..], first + middle as u16);
                 merge(self, low, high, cut)

@@ -14,8 +14,9 @@ use crate::error::{Error, Result};
 use crate::memory;
 use crate::point::Point;
 use crate::progress::{Progress, Stage};
-use crate::space::order::{Order, order};
+use crate::space::order::{Grid, Order, order};
 use divide::{Vertices, triangulate};
+use leaf::Leaf;
 pub use rings::NONE;
 use slots::{HalfEdge, SLOTS, Slots};
 pub use stars::{Star, Stars};
@@ -24,7 +25,7 @@ pub use stars::{Star, Stars};
 pub const MOST_POINTS: usize = (u32::MAX as usize - 1) / SLOTS;
 
 /// Memory for each point at the peak, about.
-const BYTES: usize = 144;
+const BYTES: usize = 128;
 
 /// A Delaunay triangulation.
 ///
@@ -68,8 +69,8 @@ impl Delaunay {
             return Err(Error::TooManyPoints { count: points.len(), limit: MOST_POINTS });
         }
         memory::check(points.len(), BYTES)?;
-        let Order { points: vertices, rows, codes, duplicates, scale } = order(points, progress)?;
-        let (stars, hull) = stars(&vertices, codes, leaf::MOST, progress)?;
+        let Order { points: vertices, rows, grid, duplicates, scale } = order(points, progress)?;
+        let (stars, hull) = stars(&vertices, &grid, leaf::MOST, progress)?;
         Ok(Self { points: vertices, rows, duplicates, scale, input: points.len(), hull, stars })
     }
 
@@ -147,27 +148,32 @@ impl Delaunay {
     }
 }
 
-/// Triangulate the vertices `points`, sorted by their `codes`; return their stars and the hull.
+/// Triangulate the vertices `points`, sorted by their codes on `grid`; return their stars and the hull.
 fn stars(
     points: &[Point],
-    codes: Vec<u64>,
+    grid: &Grid,
     leaf: usize,
     progress: &Progress,
 ) -> Result<(Stars, Vec<u32>)> {
     let count = points.len();
     progress.enter(Stage::Triangulate, count)?;
+    if (1..=leaf).contains(&count) {
+        return Leaf::with(points, grid, |leaf, extremes| {
+            progress.advance(count)?;
+            let (first, degrees) = leaf.origins(count);
+            Stars::collect(leaf, first, degrees, extremes.left.edge, progress)
+        });
+    }
     let mut slots = vec![HalfEdge::default(); SLOTS * count];
     let mut first = vec![0; count];
     let mut offsets = vec![0; count + 1];
     let mut hull = NONE;
     if count > 0 {
         let mut graph = Slots::new(points, 0, &mut slots, [&mut first, &mut offsets[1..]]);
-        let vertices = Vertices { points, codes: &codes, leaf };
+        let vertices = Vertices { points, grid, leaf };
         hull = triangulate(vertices, &mut graph, progress)?.left.edge;
     }
-    // The peak comes now.
-    drop(codes);
-    Stars::collect(&slots, first, offsets, hull, progress)
+    Stars::collect(slots.as_slice(), first, offsets, hull, progress)
 }
 
 #[cfg(test)]

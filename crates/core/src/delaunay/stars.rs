@@ -3,8 +3,7 @@
 //! This is all that selection needs: a wedge, two successive neighbors of a vertex, is a triangle, and its
 //! circumcenter a corner of the vertex's Voronoi cell.
 
-use super::rings::{NONE, Rings};
-use super::slots::HalfEdge;
+use super::rings::{Index, Rings};
 use crate::error::Result;
 use crate::parts::{each, split, try_each};
 use crate::progress::{Progress, Stage};
@@ -81,18 +80,18 @@ impl<'a> Star<'a> {
 }
 
 impl Stars {
-    /// Collect the stars of a finished graph in `slots`, and its hull.
+    /// Collect the stars of a finished graph, and its hull.
     ///
     /// `first` holds a half-edge from each vertex, `offsets` a 0 and then the number of half-edges from each vertex. `hull` is a
     /// half-edge of the hull, the outside to its right, or `NONE` if there are no edges.
     ///
     /// # Errors
     /// A cancelled `progress`.
-    pub fn collect(
-        slots: &[HalfEdge],
-        mut first: Vec<u32>,
+    pub fn collect<R: Rings<Index: Into<u32> + Sync> + Sync + ?Sized>(
+        graph: &R,
+        mut first: Vec<R::Index>,
         mut offsets: Vec<u32>,
-        hull: u32,
+        hull: R::Index,
         progress: &Progress,
     ) -> Result<(Self, Vec<u32>)> {
         progress.enter(Stage::Stars, first.len())?;
@@ -101,7 +100,7 @@ impl Stars {
             end += *offset;
             *offset = end;
         }
-        let hull = walk_hull(slots, hull, &mut first);
+        let hull = walk_hull(graph, hull, &mut first);
         let mut on_hull = vec![false; first.len()];
         for &vertex in &hull {
             on_hull[vertex as usize] = true;
@@ -111,7 +110,7 @@ impl Stars {
             let parts = split(&mut neighbors, grains(&offsets));
             let parts = parts.into_iter().zip(first.chunks(GRAIN)).collect();
             try_each(parts, |_, (part, first)| {
-                collect_part(slots, first, part);
+                collect_part(graph, first, part);
                 progress.advance(first.len())
             })?;
         }
@@ -167,14 +166,18 @@ impl Stars {
 }
 
 /// The vertices of the hull, counter-clockwise; let each one's star start with the next.
-fn walk_hull(slots: &[HalfEdge], start: u32, first: &mut [u32]) -> Vec<u32> {
+fn walk_hull<R: Rings<Index: Into<u32>> + ?Sized>(
+    graph: &R,
+    start: R::Index,
+    first: &mut [R::Index],
+) -> Vec<u32> {
     let mut hull = Vec::new();
     let mut e = start;
-    while e != NONE {
-        let vertex = slots.origin(e);
+    while e != R::Index::NONE {
+        let vertex = graph.origin(e).into();
         hull.push(vertex);
         first[vertex as usize] = e;
-        e = slots.next(e ^ 1);
+        e = graph.next(e.twin());
         if e == start {
             break;
         }
@@ -190,14 +193,18 @@ fn grains(offsets: &[u32]) -> impl Iterator<Item = usize> {
 }
 
 /// Write the stars of the vertices with the half-edges `first`, one each, one after another.
-fn collect_part(slots: &[HalfEdge], first: &[u32], part: &mut [u32]) {
+fn collect_part<R: Rings<Index: Into<u32>> + ?Sized>(
+    graph: &R,
+    first: &[R::Index],
+    part: &mut [u32],
+) {
     let mut end = part.iter_mut();
     for &start in first {
         let mut e = start;
         loop {
             let neighbor = end.next().expect("as many neighbors as half-edges");
-            *neighbor = slots.destination(e);
-            e = slots.next(e);
+            *neighbor = graph.destination(e).into();
+            e = graph.next(e);
             if e == start {
                 break;
             }

@@ -5,28 +5,29 @@
 //! data base", IBM, 1966.
 
 use crate::error::{Error, Result};
-use crate::parts::{self, split};
+use crate::parts::{self, in_parts, split, try_each};
 use crate::point::{Point, lexicographic};
-use crate::progress::{PACE, Progress, Stage};
+use crate::progress::{Progress, Stage};
 use crate::space::bounds::Bounds;
-use rayon::prelude::*;
 
 /// Points in one bucket of the first pass of the sort, about: they should fit in the first cache.
 const BUCKET: usize = 256;
 /// The most buckets that one pass can scatter to without thrashing the address translation.
 const MOST_BUCKETS: usize = 1 << 12;
+/// Buckets that one task sorts.
+const BUCKETS: usize = 16;
 /// Rows that one task takes at a time.
 const GRAIN: usize = 1 << 14;
 
 /// Distinct points along the Z-order curve, and where they came from.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Order {
     /// The distinct points, scaled by `scale`.
     pub points: Vec<Point>,
     /// The first row with these coordinates, a vertex each.
     pub rows: Vec<u32>,
-    /// The Z-order code of each vertex; equal codes are sorted by x, then y.
-    pub codes: Vec<u64>,
+    /// What gives the codes that the points are sorted by; equal codes are sorted by x, then y.
+    pub grid: Grid,
     /// Row, and the first row with the same coordinates; sorted.
     pub duplicates: Vec<[u32; 2]>,
     /// The power of two that coordinates were multiplied by.
@@ -38,17 +39,22 @@ pub struct Order {
 /// # Errors
 /// Coordinates too far apart in size, or a cancelled `progress`.
 pub fn order(points: &[Point], progress: &Progress) -> Result<Order> {
-    progress.enter(Stage::Sort, points.len())?;
+    progress.enter(Stage::Sort, 2 * points.len())?;
     let bounds = Bounds::of(points);
     let scale = scale(bounds.largest());
     if scale != 1.0 {
         check_scaling(points, scale, bounds.largest())?;
     }
-    let mut keys = keys(points, &bounds, scale);
-    sort_keys(&mut keys, progress)?;
-    sort_runs(&mut keys, points);
+    let grid = Grid::around(&bounds, scale);
+    let mut keys = sorted_keys(points, &grid, scale, progress)?;
     let duplicates = set_duplicates_aside(&mut keys, points);
-    Ok(Order { duplicates, ..collect(&keys, points, scale) })
+    Ok(Order {
+        points: parts::collect(&keys, |key| points[key.1 as usize].map(|x| x * scale)),
+        rows: parts::collect(&keys, |key| key.1),
+        grid,
+        duplicates,
+        scale,
+    })
 }
 
 /// The code and the row of a point.
@@ -75,21 +81,32 @@ fn check_scaling(points: &[Point], scale: f64, largest: f64) -> Result<()> {
     }
 }
 
-/// The key of each point. The quantization is monotone in x and in y, which is all that the cuts of
-/// `divide` ask for: different codes in x mean that the x are different, and in the same order.
-fn keys(points: &[Point], bounds: &Bounds, scale: f64) -> Vec<Key> {
-    let low = bounds.low.map(|x| x * scale);
-    let high = bounds.high.map(|x| x * scale);
-    let extent = (high[0] - low[0]).max(high[1] - low[1]);
-    let cells = if extent > 0.0 { (f64::from(u32::MAX) / extent).min(f64::MAX) } else { 0.0 };
-    let key = |(row, p): (usize, &Point)| {
-        let [x, y] = [0, 1].map(|axis| ((p[axis] * scale - low[axis]) * cells) as u32);
-        (spread(x) << 1 | spread(y), row as u32)
-    };
-    if points.len() <= GRAIN {
-        return points.iter().enumerate().map(key).collect();
+/// The cells that coordinates are quantized to, 2³² along the longer side of all points.
+///
+/// The quantization is monotone in x and in y, which is all that the cuts of `divide` ask for: different codes in x mean that the x
+/// are different, and in the same order.
+#[derive(Debug)]
+pub struct Grid {
+    low: Point,
+    /// Cells a unit of length.
+    cells: f64,
+}
+
+impl Grid {
+    fn around(bounds: &Bounds, scale: f64) -> Self {
+        let low = bounds.low.map(|x| x * scale);
+        let high = bounds.high.map(|x| x * scale);
+        let extent = (high[0] - low[0]).max(high[1] - low[1]);
+        let cells = if extent > 0.0 { (f64::from(u32::MAX) / extent).min(f64::MAX) } else { 0.0 };
+        Self { low, cells }
     }
-    points.par_iter().enumerate().with_min_len(GRAIN).map(key).collect()
+
+    /// The Z-order code of `point`, which is scaled.
+    #[inline]
+    pub fn code(&self, point: Point) -> u64 {
+        let [x, y] = [0, 1].map(|axis| ((point[axis] - self.low[axis]) * self.cells) as u32);
+        spread(x) << 1 | spread(y)
+    }
 }
 
 /// Put a zero bit before each bit of `x`.
@@ -107,52 +124,26 @@ fn spread(x: u32) -> u64 {
     x
 }
 
-/// Sort by code: one pass into buckets by the leading bits, then each bucket by comparison.
-fn sort_keys(keys: &mut Vec<Key>, progress: &Progress) -> Result<()> {
-    let buckets = (keys.len() / BUCKET).next_power_of_two().min(MOST_BUCKETS);
-    if buckets < 4 {
-        keys.sort_unstable_by_key(|key| key.0);
-        return progress.advance(keys.len());
-    }
-    let shift = 64 - buckets.trailing_zeros();
-    let ends = scatter(keys, buckets, shift, progress)?;
-    let starts = std::iter::once(0).chain(ends.iter().copied());
-    let parts = split(keys, ends.iter().zip(starts).map(|(end, start)| end - start));
-    parts.into_par_iter().with_min_len(16).try_for_each(|part| {
-        part.sort_unstable_by_key(|key| key.0);
+/// The keys of all points, by code; equal ones by x, y, then row.
+///
+/// One pass into buckets by the leading bits, then each bucket by comparison.
+fn sorted_keys(points: &[Point], grid: &Grid, scale: f64, progress: &Progress) -> Result<Vec<Key>> {
+    let key = |row: usize| (grid.code(points[row].map(|x| x * scale)), row as u32);
+    let parts = in_parts(points.len(), GRAIN, progress, |rows| rows.map(key).collect())?;
+    let buckets = (points.len() / BUCKET).next_power_of_two().min(MOST_BUCKETS);
+    // A shift by all 64 bits leaves nothing.
+    let bucket = |key: &Key| key.0.checked_shr(64 - buckets.trailing_zeros()).unwrap_or(0) as usize;
+    let (mut keys, counts) = parts::scatter(&parts, (0, 0), buckets, bucket);
+    progress.advance(0)?;
+    let parts = split(&mut keys, counts.chunks(BUCKETS).map(|counts| counts.iter().sum()));
+    try_each(parts, |_, part| {
+        for bucket in part.chunk_by_mut(|a, b| bucket(a) == bucket(b)) {
+            bucket.sort_unstable_by_key(|key| key.0);
+        }
+        sort_runs(part, points);
         progress.advance(part.len())
-    })
-}
-
-/// Group `keys` by their leading bits; return where each group ends.
-fn scatter(
-    keys: &mut Vec<Key>,
-    buckets: usize,
-    shift: u32,
-    progress: &Progress,
-) -> Result<Vec<usize>> {
-    let mut ends = vec![0; buckets];
-    for chunk in keys.chunks(PACE) {
-        progress.advance(0)?;
-        for key in chunk {
-            ends[(key.0 >> shift) as usize] += 1;
-        }
-    }
-    let mut start = 0;
-    for end in &mut ends {
-        (*end, start) = (start, start + *end);
-    }
-    let mut grouped = vec![(0, 0); keys.len()];
-    for chunk in keys.chunks(PACE) {
-        progress.advance(0)?;
-        for &key in chunk {
-            let end = &mut ends[(key.0 >> shift) as usize];
-            grouped[*end] = key;
-            *end += 1;
-        }
-    }
-    *keys = grouped;
-    Ok(ends)
+    })?;
+    Ok(keys)
 }
 
 /// Sort each run of equal codes by x, y, then row.
@@ -175,16 +166,4 @@ fn set_duplicates_aside(keys: &mut Vec<Key>, points: &[Point]) -> Vec<[u32; 2]> 
     });
     duplicates.sort_unstable();
     duplicates
-}
-
-/// Fetch the points in the order of their keys.
-fn collect(keys: &[Key], points: &[Point], scale: f64) -> Order {
-    let point = |key: &Key| points[key.1 as usize].map(|x| x * scale);
-    Order {
-        points: parts::collect(keys, point),
-        rows: parts::collect(keys, |key| key.1),
-        codes: parts::collect(keys, |key| key.0),
-        duplicates: Vec::new(),
-        scale,
-    }
 }
