@@ -308,3 +308,20 @@ def test_half_neighbors_turn_a_corner_of_62_degrees() -> None:
 def test_parameters_of_published_methods_are_checked(call: Callable[[], Any], message: str) -> None:
     with pytest.raises(cl.InputError, match=message):
         call()
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_an_array_has_the_edges_of_its_triangulation_and_stays_as_it_is(name: str) -> None:
+    method, _ = CASES[name]
+    points = np.random.default_rng(5).random((60, 2))
+    before = points.copy()
+    edges = method(points)
+    for same in (
+        cl.Delaunay(points),
+        cl.Points(points),
+        points.tolist(),
+        np.asfortranarray(points),
+    ):
+        assert np.array_equal(method(same), edges)
+    assert np.array_equal(points, before)
+    assert points.flags.writeable

@@ -19,6 +19,7 @@ __all__ = [
     "medial_axis",
     "ridge",
     "select",
+    "select_among",
     "select_by_group",
     "shells",
     "stars",

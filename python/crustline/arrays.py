@@ -108,6 +108,8 @@ def not_too_deep(values: Any, most: int) -> Any:
 
 
 def _as_array(points: npt.ArrayLike) -> npt.NDArray[Any]:
+    if type(points) is np.ndarray:
+        return points
     if isinstance(points, np.ma.MaskedArray) and np.ma.is_masked(points):
         row = int(np.argwhere(np.ma.getmaskarray(points))[0][0])
         raise InputError(f"points: row {row} is masked: remove the masked rows first")

@@ -81,12 +81,31 @@ fn sort_rows(edges: &mut [[u32; 2]], first: usize, width: usize) {
     for row in 0..width {
         ends[row + 1] += ends[row];
     }
-    for edge in edges.to_vec() {
+    let unsorted = edges.to_vec();
+    for edge in unsorted {
         let end = &mut ends[row(&edge)];
         edges[*end as usize] = edge;
         *end += 1;
     }
     for same in edges.chunk_by_mut(|a, b| a[0] == b[0]).filter(|same| same.len() > 1) {
         same.sort_unstable();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edges_of_any_number_of_rows_are_sorted() {
+        for rows in [2usize, 100, ROWS - 1, ROWS, ROWS + 1, 5 * ROWS + 3] {
+            let at = |k: usize| (k.wrapping_mul(2_654_435_761) >> 5) % rows;
+            let edge = |k| [at(k).min(at(k + 1)) as u32, at(k).max(at(k + 1)) as u32];
+            let parts: Vec<Edges> =
+                (0..9).map(|p| (100 * p..107 * p).map(edge).collect()).collect();
+            let mut expected = parts.concat();
+            expected.sort_unstable();
+            assert_eq!(sort(&parts, rows), expected);
+        }
     }
 }

@@ -176,3 +176,24 @@ pub fn split<T>(slice: &mut [T], lengths: impl IntoIterator<Item = usize>) -> Ve
     }
     parts
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn items_keep_their_order_in_each_bucket() {
+        let items: Vec<u32> = (0..5000u32).map(|k| k.wrapping_mul(2_654_435_761) >> 7).collect();
+        let bucket = |item: &u32| (item % 10) as usize;
+        for length in [1, 7, 600, 5000] {
+            let parts: Vec<Vec<u32>> = items.chunks(length).map(<[u32]>::to_vec).collect();
+            let (all, counts) = scatter(&parts, 0, 10, bucket);
+            let mut sorted = items.clone();
+            sorted.sort_by_key(bucket);
+            assert_eq!(all, sorted);
+            let of = |b| items.iter().filter(|&item| bucket(item) == b).count();
+            assert_eq!(counts, (0..10).map(of).collect::<Vec<_>>());
+        }
+        assert_eq!(scatter(&[], 0, 4, bucket), (Vec::new(), vec![0; 4]));
+    }
+}

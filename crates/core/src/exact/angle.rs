@@ -48,8 +48,21 @@ impl Angle {
     #[inline]
     #[must_use]
     pub fn turn(&self) -> Option<Ordering> {
-        let is_sure = self.cross.abs() > 5.0 * ROUNDING * self.size + UNDERFLOW;
-        is_sure.then(|| self.cross.total_cmp(&0.0))
+        self.sign(self.cross)
+    }
+
+    /// The sign of the dot product, if its error leaves no doubt: greater where the angle is acute.
+    #[inline]
+    #[must_use]
+    pub fn acuteness(&self) -> Option<Ordering> {
+        self.sign(self.dot)
+    }
+
+    /// The sign of one of the products.
+    #[inline]
+    fn sign(&self, product: f64) -> Option<Ordering> {
+        let is_sure = product.abs() > 5.0 * ROUNDING * self.size + UNDERFLOW;
+        is_sure.then(|| product.total_cmp(&0.0))
     }
 }
 

@@ -31,7 +31,9 @@ pub(crate) fn is_in(delaunay: &Delaunay, edge: Edge) -> bool {
         }
         (Some(apex), None) | (None, Some(apex)) => {
             // On the hull the other disks reach to infinity, but all hold the midpoint: 90° is too much.
-            sign::sign(&sign::Dot, delaunay.point(apex), &[p, q]) == Greater
+            let apex = delaunay.point(apex);
+            let exact = || sign::exact_sign(&sign::Dot, apex, &[p, q]);
+            Angle::at(apex, p, q).acuteness().unwrap_or_else(exact) == Greater
         }
         (None, None) => true,
     }

@@ -10,8 +10,8 @@ use crate::point::{Point, lexicographic};
 use crate::progress::{Progress, Stage};
 use crate::space::bounds::Bounds;
 
-/// Points in one bucket of the first pass of the sort, about: they should fit in the first cache.
-const BUCKET: usize = 256;
+/// Points in one bucket of the first pass of the sort, about.
+const BUCKET: usize = 64;
 /// The most buckets that one pass can scatter to without thrashing the address translation.
 const MOST_BUCKETS: usize = 1 << 12;
 /// Buckets that one task sorts.
