@@ -69,9 +69,9 @@ def halo(own: FloatArray, others: FloatArray) -> FloatArray:
 
 
 def spacing(xy: FloatArray) -> float:
-    """Return the distance to the second neighbor that 99 % of a sample of the points stay below."""
+    """Return the distance to the second neighbor that 95 % of a sample of the points stay below."""
     part = xy[np.argsort(xy[:, 0], kind="stable")[: max(2000, len(xy) // 50)]]
-    return float(np.quantile(second_distances(part), 0.99))
+    return float(np.quantile(second_distances(part), 0.95))
 
 
 def unseen(blocks: list[FloatArray], clear: FloatArray) -> tuple[FloatArray, FloatArray]:

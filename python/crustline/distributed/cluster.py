@@ -17,6 +17,8 @@ _BASE = 170_000_000
 _POINT = 800
 #: The least that a worker is given.
 _WORKER = 400_000_000
+#: Seconds to wait for a scheduler.
+_PATIENCE = 10
 
 
 @dataclass(frozen=True)
@@ -42,7 +44,7 @@ def crew(client: Any, scheduler: str | None, memory_limit: int | str | None) -> 
         return
     if scheduler is not None:
         try:
-            opened = Client(scheduler, timeout=10)
+            opened = Client(scheduler, timeout=_PATIENCE)
         except (OSError, ValueError) as error:
             message = (
                 f"no scheduler answers at {scheduler} ({error}): start one or give another address"

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
-import resource
+import platform
 import time
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from crustline.distributed.store import Written, file_seconds
+from crustline.distributed.store import Written, file_seconds, named_faults
 
 Step = Callable[..., tuple[list[Written], dict[str, Any]]]
 """Reads files of the run's folder and writes one or a few; returns them, and some counts."""
@@ -53,10 +54,22 @@ def perform(
         "wall": time.perf_counter() - wall,
         "cpu": time.process_time() - cpu,
         "files": file_seconds() - on_files,
-        "peak": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024,
-        "process": f"{os.uname().nodename}:{os.getpid()}",
+        "peak": _peak_memory(),
+        "process": f"{platform.node()}:{os.getpid()}",
     }
     return Done(stage, number, files, counts, cost)
+
+
+def _peak_memory() -> int:
+    """Return how many bytes this process has held at most; where no one tells, holds now."""
+    with contextlib.suppress(OSError):
+        # Of this process alone: getrusage also tells of the one that it was forked from.
+        status = Path("/proc/self/status").read_text(encoding="ascii")
+        return int(status.partition("VmHWM:")[2].split()[0]) * 1024
+    import psutil
+
+    held = psutil.Process().memory_info()
+    return int(getattr(held, "peak_wset", held.rss))
 
 
 def is_intact(done: Done, folder: str) -> bool:
@@ -93,9 +106,11 @@ class Ledger:
         if self.before(done.stage, done.number) is done:
             return
         self._done[done.stage, done.number] = done
-        self._path.parent.mkdir(parents=True, exist_ok=True)
-        with self._path.open("a", encoding="utf-8") as file:
-            file.write(json.dumps(asdict(done)) + "\n")
+        line = json.dumps(asdict(done)) + "\n"
+        with named_faults(self._path):
+            self._path.parent.mkdir(parents=True, exist_ok=True)
+            with self._path.open("a", encoding="utf-8") as file:
+                file.write(line)
 
     def all(self) -> list[Done]:
         """Return all steps that were done."""

@@ -9,12 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from crustline.arrays import FloatArray
+from crustline.arrays import BoolArray, FloatArray
 from crustline.errors import FormatError, InputError
 from crustline.formats.names import find_coordinates
 
 #: The size of a point in well-known binary, and of one with a height.
 _WKB_SIZES = (21, 29)
+_UNLIKE = "has a geometry that is no point like the others: give points"
 
 
 @dataclass(frozen=True)
@@ -32,22 +33,26 @@ class Place:
     columns: tuple[str, ...]
     encoding: str = "numbers"
 
-    def points(self, table: Any) -> Any:
-        """Return the points of a record batch, or of a frame of pandas, shape (k, 2)."""
+    def points(self, table: Any, first: int = 0) -> Any:
+        """Return the points of a record batch, or of a frame of pandas, shape (k, 2).
+
+        Messages count its rows from the `first` one.
+        """
         if self.encoding == "geometry":
-            return _of_geometry(table[self.columns[0]])
+            return _of_geometry(table[self.columns[0]], first)
         columns = [table[name] for name in self.columns]
         for name, column in zip(self.columns, columns, strict=True):
-            _refuse_missing(name, column)
+            missing = np.asarray(column.is_null() if hasattr(column, "is_null") else column.isna())
+            _refuse(missing, f"has no {name}: remove or repair the row", first)
         if self.encoding == "numbers":
             return np.stack([_numbers(column) for column in columns], axis=1)
-        return _of_wkb(columns[0]) if self.encoding == "wkb" else _of_structures(columns[0])
+        return _of_wkb(columns[0], first) if self.encoding == "wkb" else _of_structures(columns[0])
 
 
-def _refuse_missing(name: str, column: Any) -> None:
-    missing = np.asarray(column.is_null() if hasattr(column, "is_null") else column.isna())
-    if missing.any():
-        raise InputError(f"row {int(np.argmax(missing))} has no {name}: remove or repair the row")
+def _refuse(wrong: BoolArray, fault: str, first: int) -> None:
+    """Raise `InputError` with the first row that is wrong, if there is one."""
+    if wrong.any():
+        raise InputError(f"row {first + int(np.argmax(wrong))} {fault}")
 
 
 def _numbers(column: Any) -> Any:
@@ -61,7 +66,7 @@ def _of_structures(column: Any) -> FloatArray:
     return np.stack(fields, axis=1)
 
 
-def _of_wkb(column: Any) -> FloatArray:
+def _of_wkb(column: Any, first: int) -> FloatArray:
     """Return the points of well-known binary: byte order, type, x, y and maybe z."""
     import pyarrow as pa
 
@@ -70,25 +75,18 @@ def _of_wkb(column: Any) -> FloatArray:
     sizes = np.diff(offsets)
     if not len(sizes):
         return np.empty((0, 2))
-    if sizes[0] not in _WKB_SIZES or (sizes != sizes[0]).any():
-        row = int(np.argmax((sizes != sizes[0]) | ~np.isin(sizes, _WKB_SIZES)))
-        raise InputError(f"row {row} has a geometry that is no point like the others: give points")
+    _refuse((sizes != sizes[0]) | ~np.isin(sizes, _WKB_SIZES), _UNLIKE, first)
     flat = np.frombuffer(column.buffers()[2], np.uint8)[offsets[0] : offsets[-1]]
     table = flat.reshape(len(sizes), -1)
     order = "<" if table[0, 0] == 1 else ">"
     kinds = table[:, 1:5].copy().view(f"{order}u4")[:, 0] % 1000
-    wrong = (table[:, 0] != table[0, 0]) | (kinds & 0x0FFFFFFF != 1)
-    if wrong.any():
-        row = int(np.argmax(wrong))
-        raise InputError(f"row {row} has a geometry that is no point like the others: give points")
+    _refuse((table[:, 0] != table[0, 0]) | (kinds & 0x0FFFFFFF != 1), _UNLIKE, first)
     return table[:, 5:21].copy().view(f"{order}f8").astype(np.float64)
 
 
-def _of_geometry(column: Any) -> FloatArray:
+def _of_geometry(column: Any, first: int) -> FloatArray:
     wrong = np.asarray(column.isna() | column.is_empty | (column.geom_type != "Point"))
-    if wrong.any():
-        row = int(np.argmax(wrong))
-        raise InputError(f"row {row} has a geometry that is no point: give points")
+    _refuse(wrong, "has a geometry that is no point: give points", first)
     return np.stack([column.x.to_numpy(), column.y.to_numpy()], axis=1)
 
 

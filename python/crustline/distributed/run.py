@@ -33,7 +33,7 @@ _PIECE = 50_000
 #: The most tiles of which each is gathered from all pieces itself.
 _DIRECT = 64
 #: How many files of chains one step joins.
-_FAN_IN = 64
+_FAN_IN = 16
 #: What the files of a run take at most beside the copy of the coordinates, for each point: while
 #: tiles are gathered three times 24 bytes, at the end some 35 of the result and 33 of the tiles.
 _BYTES = 75
@@ -81,10 +81,11 @@ class Run:
                 self.ledger.add(done[futures[future]])
                 if self._progress is not None:
                     self._progress(name, len(done) / len(futures))
-        except KilledWorker as error:
+        except (KilledWorker, MemoryError) as error:
+            lost = "was lost with its worker several times, most likely for want of memory"
+            what = "found no memory" if isinstance(error, MemoryError) else lost
             raise CrustlineError(
-                f"a step of the stage {name!r} was lost with its worker several times, most likely "
-                f"for want of memory ({error.task}): give more memory or fewer tile_points"
+                f"a step of the stage {name!r} {what}: give more memory or fewer tile_points"
             ) from None
         finally:
             self.client.cancel(list(futures))
@@ -144,10 +145,10 @@ def _partition(run: Run, given: Input, settings: Settings) -> tuple[int, dict[st
 def _scatter_and_gather(run: Run, given: Input, settings: Settings) -> None:
     size = settings.tile_points
     read = run.stage("read", partition.read, _units(run, given, size))
-    files = [each.files[0].path for each in read]
+    files, samples = ([each.files[k].path for each in read] for k in (0, 1))
     first_rows = np.cumsum([0, *(each.counts["count"] for each in read)]).tolist()
     check_room(run.folder, _BYTES * first_rows[-1])
-    planned = run.one("plan", partition.plan, units=files, tile_points=size)
+    planned = run.one("plan", partition.plan, samples=samples, tile_points=size)
     generation, cuts, tiles = 0, planned.files[0].path, planned.counts["tiles"]
     while True:
         scattered = run.stage(
@@ -158,7 +159,7 @@ def _scatter_and_gather(run: Run, given: Input, settings: Settings) -> None:
                 for n, (file, first) in enumerate(zip(files, first_rows, strict=False))
             },
         )
-        paths = [each.files[0].path for each in scattered]
+        paths = [_stem(each) for each in scattered]
         balanced = run.one(
             f"balance {generation}", partition.balance, scattered=paths, cuts=cuts, tile_points=size
         )
@@ -174,6 +175,11 @@ def _scatter_and_gather(run: Run, given: Input, settings: Settings) -> None:
             shutil.rmtree(folder)
 
 
+def _stem(done: Done) -> str:
+    """Return the name that the files of a step's pieces share."""
+    return done.files[0].path.rpartition(".")[0]
+
+
 def _regroup(run: Run, scattered: list[str], tiles: int, piece: int) -> list[Arguments]:
     """Return for each tile the files that hold it, and the first tile in these."""
     if tiles <= _DIRECT:
@@ -187,7 +193,7 @@ def _regroup(run: Run, scattered: list[str], tiles: int, piece: int) -> list[Arg
         {n: {"number": n, "tiles": each} | about for n, each in enumerate(runs)},
     )
     return [
-        {"scattered": [each.files[0].path], "first_tile": run_of.start}
+        {"scattered": [_stem(each)], "first_tile": run_of.start}
         for each, run_of in zip(done, runs, strict=True)
         for _ in run_of
     ]

@@ -28,28 +28,18 @@ NOTHING: Arrays = {
 
 @dataclass(frozen=True)
 class Atlas:
-    """Where the points are: the groups of all tiles, one tile after another.
+    """Where the points are.
 
     Attributes
     ----------
-    first : ndarray of int64, shape (tiles + 1,)
-        Tile t has the groups ``first[t]:first[t + 1]``.
-    bounds : ndarray of float64, shape (groups, 4)
-        Left, bottom, right, top of each group's points.
-    counts : ndarray of int64, shape (groups,)
-        How many points a group has.
     tiles : ndarray of float64, shape (tiles, 4)
-        The same of whole tiles.
+        Left, bottom, right, top of each tile's points.
+    groups : callable
+        Takes a tile, returns the same of its groups, and how many points each has.
     """
 
-    first: IntArray
-    bounds: FloatArray
-    counts: IntArray
     tiles: FloatArray
-
-    def groups_of(self, tile: int) -> slice:
-        """Return where the groups of a tile are."""
-        return slice(int(self.first[tile]), int(self.first[tile + 1]))
+    groups: Callable[[int], tuple[FloatArray, IntArray]]
 
 
 class Sight:
@@ -136,7 +126,7 @@ class Sight:
         tiles, known = self.tile[whole], self.known[whole]
         self._drop(whole)
         for tile, was_known in zip(tiles, known, strict=True):
-            bounds = self._atlas.bounds[self._atlas.groups_of(tile)]
+            bounds, _ = self._atlas.groups(tile)
             numbers = np.arange(len(bounds))
             self._add(bounds, np.full(len(bounds), tile), numbers, np.full(len(bounds), was_known))
 

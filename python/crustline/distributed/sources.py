@@ -1,4 +1,4 @@
-"""What can be read: Parquet by row groups, LAS by chunks, any format, partitions of frames.
+"""What can be read: Parquet by row groups, files of any format, partitions of frames.
 
 The input is a list of units, each read on its own, in pieces that fit in memory. Rows count through
 the units, in the order of the files' paths as text.
@@ -7,19 +7,22 @@ the units, in the order of the files' paths as text.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from os import PathLike, fspath
+from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
 
 from crustline.arrays import FloatArray, as_points
 from crustline.distributed.place import Place, place_in_frame, place_in_schema
-from crustline.errors import CrustlineError, InputError, MissingExtraError
+from crustline.errors import CrustlineError, InputError
 from crustline.formats import Source, stream
 
 _PARQUET = (".parquet", ".pq", ".geoparquet")
-_CLOUDS = (".las", ".laz")
+#: Bytes of a column that are read at once.
+_BUFFER = 1 << 20
 
 
 class Unit(Protocol):
@@ -56,13 +59,39 @@ class File:
     size: int
     changed: str
 
-    def open(self) -> Any:
-        """Open it, if it is still the same."""
-        import fsspec
+    @contextmanager
+    def unchanged(self) -> Iterator[None]:
+        """Raise `InputError` if it is not the same before and after."""
+        self._compare()
+        yield
+        self._compare()
 
+    def _compare(self) -> None:
         if described(self.url) != self:
             raise InputError(f"{self.url} has changed since the run began: start another run")
-        return fsspec.open(self.url, "rb").open()
+
+    @contextmanager
+    def open(self) -> Iterator[Any]:
+        """Open it, if it is still the same, and is at the end."""
+        import fsspec
+        from pyarrow import ArrowInvalid
+
+        try:
+            with self.unchanged(), fsspec.open(self.url, "rb") as opened:
+                yield opened
+        except (OSError, ArrowInvalid) as error:
+            reason = str(error).partition("\n")[0]
+            raise InputError(f"{self.url} cannot be read ({reason}): copy it again") from None
+
+    @contextmanager
+    def source(self) -> Iterator[Source]:
+        """Give it to a reader of its format, if it is still the same, and is at the end."""
+        if "://" in self.url:
+            with self.open() as opened:
+                yield Source(opened, self.url)
+        else:
+            with self.unchanged():
+                yield Source(Path(self.url), self.url)
 
 
 def described(url: str) -> File:
@@ -92,7 +121,8 @@ class RowGroups:
 
         columns = list(self.place.columns)
         with self.file.open() as opened:
-            table = parquet.ParquetFile(opened)
+            # With a buffer, or a column of a row group is read whole.
+            table = parquet.ParquetFile(opened, buffer_size=_BUFFER)
             for group in self.groups:
                 start = 0
                 for batch in table.iter_batches(rows, row_groups=[group], columns=columns):
@@ -110,28 +140,9 @@ class Stream:
 
     def pieces(self, rows: int) -> Iterator[FloatArray]:
         """Yield the points of the file."""
-        with self.file.open() as opened:
-            for points in stream(Source(opened, self.file.url), rows, **self.options):
+        with self.file.source() as source:
+            for points in stream(source, rows, **self.options):
                 yield points.xy
-
-
-@dataclass(frozen=True)
-class Cloud:
-    """A LAS or LAZ file, read by chunks of its points."""
-
-    file: File
-
-    def pieces(self, rows: int) -> Iterator[FloatArray]:
-        """Yield x and y of the points."""
-        try:
-            import laspy
-        except ModuleNotFoundError:
-            raise MissingExtraError(
-                f"{self.file.url} needs laspy, which is not here: run pip install 'laspy[lazrs]'"
-            ) from None
-        with self.file.open() as opened, laspy.open(opened, closefd=False) as cloud:
-            for chunk in cloud.chunk_iterator(rows):
-                yield np.stack([np.asarray(chunk.x), np.asarray(chunk.y)], axis=1)
 
 
 @dataclass(frozen=True)
@@ -149,18 +160,18 @@ class Frame:
             yield _checked(self.place, part, f"partition {self.number}", start)
 
 
-def _checked(place: Place, table: Any, where: str, start: int) -> FloatArray:
-    """Return the points of a table; messages say where it is and at which row it starts."""
+def _checked(place: Place, table: Any, where: str, first: int) -> FloatArray:
+    """Return the points of a table; messages say where it is and count rows from its first one."""
     try:
-        xy = place.points(table)
+        xy = place.points(table, first)
         if xy.dtype.kind == "f" and not np.isfinite(xy).all():
             row, column = np.argwhere(~np.isfinite(xy))[0].tolist()
             name = place.columns[min(column, len(place.columns) - 1)]
-            raise InputError(f"row {row} has {xy[row, column]} in {name}: remove or repair the row")
+            fault = f"row {first + row} has {xy[row, column]} in {name}"
+            raise InputError(f"{fault}: remove or repair the row")
         points: FloatArray = as_points(xy)
     except CrustlineError as error:
-        after = f" after row {start}" if start else ""
-        raise InputError(f"{where}{after}: {error}") from None
+        raise InputError(f"{where}: {error}") from None
     return points
 
 
@@ -178,8 +189,6 @@ def open_input(source: Any, columns: Sequence[str] | None, rows: int) -> Input:
     for file in files:
         if file.url.lower().endswith(_PARQUET):
             units += tables.units(file)
-        elif file.url.lower().endswith(_CLOUDS):
-            units.append(Cloud(file))
         else:
             units.append(Stream(file, {} if columns is None else {"columns": columns}))
     marks = [[file.url, file.size, file.changed] for file in files]

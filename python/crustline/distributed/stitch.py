@@ -173,7 +173,7 @@ def join(folder: Path, level: int, number: int, parts: list[tuple[int, str]]) ->
     members = together(({n: c[n] for n in _NO_MEMBERS} for c in chains), _NO_MEMBERS)
     arrays = (table[name] for name in ("sites", "places", "counts", "degrees"))
     whole, rest = (_joined(members, *each) for each in _core.join_chains(*arrays))
-    rest["degrees"] = table["degrees"]
+    rest["degrees"] = _needed(table["degrees"], table["sites"][:, :2], rest["sites"][:, :2])
     written = [
         write(
             folder,
@@ -184,6 +184,16 @@ def join(folder: Path, level: int, number: int, parts: list[tuple[int, str]]) ->
     ]
     counts = {"curves": len(whole["counts"]), "open": len(rest["counts"])}
     return written, counts
+
+
+def _needed(degrees: IntArray, ends: IntArray, open_ends: IntArray) -> IntArray:
+    """Return the degrees of vertices where chains end still, or will in other files."""
+    rows, counts = np.unique(ends, return_counts=True)
+    place = np.searchsorted(rows, degrees[:, 0]) % max(1, len(rows))
+    met = np.zeros(len(degrees), np.int64)
+    if len(rows):
+        met = np.where(rows[place] == degrees[:, 0], counts[place], 0)
+    return degrees[(met < degrees[:, 1]) | np.isin(degrees[:, 0], open_ends)]
 
 
 def _chains(folder: Path, level: int, tile: int, path: str) -> Arrays:

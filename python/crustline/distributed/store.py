@@ -41,7 +41,8 @@ _meter = _Meter()
 
 
 @contextmanager
-def _on_files() -> Iterator[None]:
+def on_files() -> Iterator[None]:
+    """Count what is done here as work on files."""
     start = time.process_time()
     try:
         yield
@@ -74,19 +75,27 @@ class Written:
 def write(folder: Path, path: str, make: Callable[[Path], object]) -> Written:
     """Have `make` write a file under another name, and give it its own once it is whole."""
     target = folder / path
-    target.parent.mkdir(parents=True, exist_ok=True)
     part = target.with_name(f"{target.name}.{uuid.uuid4().hex}{PART}")
+    with named_faults(target):
+        target.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            make(part)
+            written = Written(path, part.stat().st_size, _digest(part))
+            os.replace(part, target)
+        finally:
+            part.unlink(missing_ok=True)
+    return written
+
+
+@contextmanager
+def named_faults(path: Path) -> Iterator[None]:
+    """Say of a file that cannot be written that it is so, and why."""
     try:
-        make(part)
-        written = Written(path, part.stat().st_size, _digest(part))
-        os.replace(part, target)
+        yield
     except OSError as error:
         reason = error.strerror or str(error)
-        message = f"{target} cannot be written ({reason}): make room or give another folder"
+        message = f"{path} cannot be written ({reason}): make room or give another folder"
         raise CrustlineError(message) from error
-    finally:
-        part.unlink(missing_ok=True)
-    return written
 
 
 def clean(folder: Path) -> None:
@@ -96,7 +105,7 @@ def clean(folder: Path) -> None:
 
 
 def _digest(path: Path) -> str:
-    with _on_files(), path.open("rb") as file:
+    with on_files(), path.open("rb") as file:
         return hashlib.file_digest(file, lambda: hashlib.blake2b(digest_size=16)).hexdigest()
 
 
@@ -112,7 +121,7 @@ def _write_records(path: Path, records: Iterator[Arrays]) -> None:
     schema = pa.schema([_field(name, array) for name, array in first.items()])
     with pa.OSFile(str(path), "wb") as file, pa.ipc.new_file(file, schema) as writer:
         for record in itertools.chain([first], records):
-            with _on_files():
+            with on_files():
                 writer.write_batch(_batch(record, schema))
 
 
@@ -150,7 +159,7 @@ class Records(Sequence[Arrays]):
         import pyarrow as pa
 
         try:
-            with _on_files():
+            with on_files():
                 source = pa.memory_map(str(path)) if mapped else pa.OSFile(str(path))
                 schema = pa.ipc.open_file(source).schema
                 wanted = range(len(schema)) if names is None else map(schema.get_field_index, names)
@@ -166,7 +175,7 @@ class Records(Sequence[Arrays]):
     def __getitem__(self, key: Any) -> Any:
         if isinstance(key, slice):
             return [self[k] for k in range(len(self))[key]]
-        with _on_files():
+        with on_files():
             batch = self._file.get_batch(range(len(self))[key])
             return {field.name: _array(batch[field.name], field) for field in batch.schema}
 
@@ -189,9 +198,11 @@ def write_batches(path: Path, schema: Any, batches: Iterable[Any]) -> None:
     """Write a Parquet file, a row group for each record batch."""
     from pyarrow import parquet
 
-    with parquet.ParquetWriter(path, schema, write_page_checksum=True) as writer:
+    # Without dictionaries, as hardly any value comes twice.
+    options = {"use_dictionary": False, "write_page_checksum": True}
+    with parquet.ParquetWriter(path, schema, **options) as writer:
         for batch in batches:
-            with _on_files():
+            with on_files():
                 writer.write_batch(batch)
 
 

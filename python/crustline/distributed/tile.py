@@ -38,7 +38,12 @@ class Folder:
 
     def atlas(self) -> Atlas:
         """Return where all points are."""
-        return _atlas(self.path / "work/atlas.arrow")
+        return Atlas(_tiles(self.path / "work/atlas.arrow"), self.bounds)
+
+    def bounds(self, tile: int) -> tuple[FloatArray, IntArray]:
+        """Return what the groups of a tile span, and how many points each has."""
+        about = Records(self.path / f"work/tiles/{tile:06}.bounds")[0]
+        return about["bounds"], about["counts"]
 
     def groups(self, tile: int, numbers: list[int]) -> list[Arrays]:
         """Return some of the groups of a tile."""
@@ -52,8 +57,9 @@ class Folder:
 
 
 @lru_cache(maxsize=4)
-def _atlas(path: Path) -> Atlas:
-    return Atlas(**Records(path)[0])
+def _tiles(path: Path) -> FloatArray:
+    tiles: FloatArray = Records(path)[0]["tiles"]
+    return tiles
 
 
 @dataclass(frozen=True)
@@ -121,18 +127,12 @@ def _guess(store: Folder, tile: int, count: int) -> float:
 
     A wrong guess costs rounds, or points that were not needed; never an edge.
     """
-    atlas = store.atlas()
-    groups = atlas.groups_of(tile)
-    numbers = np.linspace(0, groups.stop - groups.start - 1, 8).astype(int)
+    _, counts = store.bounds(tile)
+    numbers = np.linspace(0, len(counts) - 1, 8).astype(int)
     records = store.groups(tile, np.unique(numbers).tolist())
     spacings = np.concatenate([second_distances(record["xy"]) for record in records])
-    width = 4 * float(np.quantile(spacings, 0.99)) if len(spacings) else 0.0
-    others = np.ones(len(atlas.bounds), bool)
-    others[groups] = False
-    bounds, counts = atlas.bounds[others], atlas.counts[others]
-    while (
-        width > 0 and _points_within(bounds, counts, atlas.tiles[tile], width) > MOST_HALO * count
-    ):
+    width = 4 * float(np.quantile(spacings, 0.95)) if len(spacings) else 0.0
+    while width > 0 and _points_beside(store.atlas(), tile, width) > MOST_HALO * count:
         width = width / 2 if width > 1e-300 else 0.0
     return width
 
@@ -150,9 +150,15 @@ def second_distances(xy: FloatArray) -> FloatArray:
     return found
 
 
-def _points_within(bounds: FloatArray, counts: IntArray, tile: FloatArray, width: float) -> float:
-    """Return about how many points of groups are in a tile's rectangle with a halo."""
-    clear = grown(tile, width)
+def _points_beside(atlas: Atlas, tile: int, width: float) -> float:
+    """Return about how many points of other tiles are in a tile's halo."""
+    clear = grown(atlas.tiles[tile], width)
+    near = np.setdiff1d(np.flatnonzero(meets(atlas.tiles, clear)), [tile])
+    return sum(_points_within(*atlas.groups(int(other)), clear) for other in near)
+
+
+def _points_within(bounds: FloatArray, counts: IntArray, clear: FloatArray) -> float:
+    """Return about how many points of groups are in a rectangle."""
     near = meets(bounds, clear)
     part = common(bounds[near], clear)
     with np.errstate(all="ignore"):
