@@ -252,6 +252,51 @@ def test_splines_through_thinned_samples_can_be_sampled(tolerance: float | None)
     assert len(again) < 120
 
 
+def test_progress_names_stages_in_order_and_stops_the_call_where_it_fails() -> None:
+    told: list[tuple[str, float]] = []
+    sample = r_sample(shapes.trefoil(7), 0.1, progress=lambda *state: told.append(state))
+    assert len(told) > 20 and all(0 <= fraction <= 1 for _, fraction in told)
+    stages = [stage for stage, _ in told]
+    assert list(dict.fromkeys(stages)) == ["axis", "walk", "measure"]
+    assert np.array_equal(sample.points, r_sample(shapes.trefoil(7), 0.1).points)
+    for stage in ("axis", "walk", "measure"):
+        told.clear()
+
+        def stop(now: str, fraction: float, stage: str = stage) -> None:
+            told.append((now, fraction))
+            if now == stage:
+                raise KeyboardInterrupt
+
+        with pytest.raises(KeyboardInterrupt):
+            sample_for_error(shapes.trefoil(8), 1e-2, progress=stop)
+        assert told[-1][0] == stage
+        medial_axis.cache_clear()
+
+
+def test_sampling_takes_time_in_proportion_to_loops_and_to_samples(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Twenty circles took over eight minutes, and `trefoil(60)` minutes."""
+    evaluated: list[int] = []
+    derivatives = SmoothCurve._on_loops
+
+    def counted(curve: SmoothCurve, loop: Any, u: FloatArray) -> Any:
+        evaluated.append(np.size(u))
+        return derivatives(curve, loop, u)
+
+    monkeypatch.setattr(SmoothCurve, "_on_loops", counted)
+
+    def work(curve: SmoothCurve) -> tuple[int, int]:
+        evaluated.clear()
+        return len(r_sample(curve, 0.3)), sum(evaluated)
+
+    circles = [shapes.circle().moved(offset=(3 * k, 0)) for k in range(20)]
+    (few, little), (many, much) = (work(shapes.union(*circles[:k])) for k in (5, 20))
+    assert 4 * few <= many <= 4.5 * few and much <= 6 * little
+    (few, little), (many, much) = (work(shapes.trefoil(k)) for k in (5, 20))
+    assert much / little <= 1.5 * many / few
+
+
 @pytest.mark.parametrize("seed", [-1, 1.5, "a"])
 def test_bad_seeds_are_named(seed: object) -> None:
     with pytest.raises(InputError, match="seed must be a whole number of at least 0, not"):

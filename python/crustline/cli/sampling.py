@@ -10,6 +10,7 @@ import numpy as np
 
 from crustline.cli.method import Method, method_options
 from crustline.cli.output import Output, counted, output_options
+from crustline.cli.progress import progress_bar
 from crustline.cli.reconstruct import reconstruction
 from crustline.cli.sections import Sectioned
 from crustline.cli.source import Source, source_options
@@ -66,7 +67,8 @@ def sample(
     \b
         crustline sample ellipse:2,1 -r 0.25 -o points.csv
     """
-    taken = _take(_curve(shape), r, error, seed, mode)
+    with progress_bar(output.quiet) as progress:
+        taken = _take(_curve(shape), r, error, {"seed": seed, "mode": mode, "progress": progress})
     rows = np.arange(len(taken))
     if shuffle:
         np.random.default_rng(seed).shuffle(rows)
@@ -82,17 +84,17 @@ def sample(
 
 
 def _take(
-    curve: SmoothCurve, r: float | None, error: float | None, seed: int | None, mode: Any
+    curve: SmoothCurve, r: float | None, error: float | None, how: dict[str, Any]
 ) -> Sample:
     from crustline.shapes.sampling import r_sample, sample_for_error
 
     share = None if r is None else as_share("-r", r)
     if error is not None:
         error = as_positive("--error", error)
-        return sample_for_error(curve, error, r=share, seed=seed, mode=mode)
+        return sample_for_error(curve, error, r=share, **how)
     if share is None:
         raise InputError("how dense the samples are is not said: add -r R, such as -r 0.25")
-    return r_sample(curve, share, seed=seed, mode=mode)
+    return r_sample(curve, share, **how)
 
 
 def _curve(spec: str) -> SmoothCurve:

@@ -16,6 +16,7 @@ from crustline.delaunay import Delaunay
 from crustline.errors import InputError
 from crustline.shapes.curve import SmoothCurve
 from crustline.shapes.nodes import Nodes, nodes_at, refuse_crossings
+from crustline.shapes.progress import tell
 
 # The grid on which contacts are sought: its spacing over the radius of the smallest empty disk that
 # touches there, the smallest number of its nodes in a loop, and the largest number in all, for each
@@ -67,6 +68,7 @@ def refined(nodes: Nodes, disks: FloatArray, is_wide: IsWide) -> tuple[Nodes, Fl
     pieces = sum(loop.pieces for loop in nodes.curve.loops)
     for _ in range(MOST_ROUNDS):
         wide = np.flatnonzero(is_wide(nodes, disks))
+        tell("axis", 1 - len(wide) / len(nodes))
         if not len(wide):
             return nodes, disks
         if len(nodes) + len(wide) > MOST_NODES + pieces * MOST_NODES_PER_PIECE:

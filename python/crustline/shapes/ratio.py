@@ -12,6 +12,7 @@ from crustline.arrays import FloatArray, as_points
 from crustline.errors import InputError
 from crustline.scalars import as_positive, as_rtol
 from crustline.shapes.curve import SmoothCurve, as_curve
+from crustline.shapes.progress import tell
 
 Allowance = Callable[[FloatArray], FloatArray]
 # Arcs and rounds of halving them at the most.
@@ -98,6 +99,7 @@ def supremum(
     for _ in range(MOST_ROUNDS):
         bound = _arc_bound(left, right, lipschitz)
         alive = bound > best * (1 + rtol)
+        tell("measure", 1 - float(alive.mean()))
         result = max(result, float(bound[~alive].max(initial=0.0)))
         if not alive.any():
             break

@@ -9,9 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from crustline.arrays import FloatArray, IntArray
+from crustline.delaunay import Progress
 from crustline.errors import InputError
 from crustline.scalars import as_choice, as_positive, as_share, as_whole
 from crustline.shapes.curve import SmoothCurve
+from crustline.shapes.progress import tell, told_to
 from crustline.shapes.ratio import Allowance, supremum
 from crustline.shapes.walk import Walk, tables
 from crustline.theory import guaranteed_r, spacing_for_error
@@ -58,7 +60,12 @@ class Sample:
 
 
 def r_sample(
-    curve: SmoothCurve, r: float, *, seed: int | None = None, mode: Mode = "sparsest"
+    curve: SmoothCurve,
+    r: float,
+    *,
+    seed: int | None = None,
+    mode: Mode = "sparsest",
+    progress: Progress | None = None,
 ) -> Sample:
     """Return samples of a smooth curve such that each of its points p has one within r · LFS(p).
 
@@ -77,6 +84,9 @@ def r_sample(
         "sparsest": each step along the curve is as long as the condition allows, and the last one
         of a loop what is left. "random": each step is between half and the whole of that,
         uniformly.
+    progress : callable, optional
+        Called now and then with the name of a stage ("axis", "walk", "measure") and the fraction of
+        it that is done; "axis" and "measure" may go round more than once.
 
     Returns
     -------
@@ -110,7 +120,8 @@ def r_sample(
     [34, 14, 7]
     """
     r = as_share("r", r)
-    return _sample(curve, lambda lfs: r * lfs, r, seed, mode)
+    with told_to(progress):
+        return _sample(curve, lambda lfs: r * lfs, r, seed, mode)
 
 
 def sample_for_error(
@@ -120,6 +131,7 @@ def sample_for_error(
     r: float | None = None,
     seed: int | None = None,
     mode: Mode = "sparsest",
+    progress: Progress | None = None,
 ) -> Sample:
     """Return samples whose polygonal reconstruction stays within the distance d of the curve.
 
@@ -134,7 +146,7 @@ def sample_for_error(
         In (0, 1]. The samples are also an r-sample. By default `guaranteed_r("crust")`, up to which
         the crust is proven to find the reconstruction; a larger one gives fewer samples where d is
         large.
-    seed, mode
+    seed, mode, progress
         As for `r_sample`.
 
     Returns
@@ -165,7 +177,8 @@ def sample_for_error(
     def allowance(lfs: FloatArray) -> FloatArray:
         return np.minimum(spacing_for_error(d, lfs), share * lfs)
 
-    return _sample(curve, allowance, share, seed, mode)
+    with told_to(progress):
+        return _sample(curve, allowance, share, seed, mode)
 
 
 def _sample(
@@ -180,7 +193,10 @@ def _sample(
         rng = np.random.default_rng(seed)
         starts = np.zeros(len(walks)) if seed is None else rng.random(len(walks))
         steps = None if mode == "sparsest" else rng
-        loops = [walk.samples(u, share, steps) for walk, u in zip(walks, starts, strict=True)]
+        loops = []
+        for walk, u in zip(walks, starts, strict=True):
+            loops.append(walk.samples(u, share, steps))
+            tell("walk", len(loops) / len(walks))
         sample = _assembled(curve, loops)
         excess = supremum(curve, sample.points, allowance, r, 1e-4)
         if excess <= 1:

@@ -12,6 +12,7 @@ import numpy as np
 from crustline.arrays import BoolArray, FloatArray
 from crustline.errors import InputError
 from crustline.shapes.curve import SmoothCurve, as_curve
+from crustline.shapes.progress import tell
 from crustline.shapes.ratio import Allowance
 
 # Random steps are at least this share of the longest step.
@@ -20,6 +21,8 @@ SHORTEST_STEP = 0.5
 MOST_SAMPLES, MOST_HALVINGS = 1_000_000, 30
 # The columns of a table: loop, parameter, point, velocity by the parameter, allowance.
 LOOP, U, X, Y, VX, VY, A = range(7)
+#: Samples after which progress is told.
+PACE = 256
 #: Rows of a loop for each of its pieces, to begin with.
 ROWS_PER_PIECE = 128
 
@@ -96,6 +99,8 @@ class Walk:
                 ahead = here + (ahead - here) * random.uniform(SHORTEST_STEP, 1.0)
             samples.append(ahead)
             here = ahead
+            if len(samples) % PACE == 0:
+                tell("walk", here - start)
         return np.array(samples) % 1.0
 
     def _served(self, u: float, share: float) -> float:
