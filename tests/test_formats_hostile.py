@@ -246,3 +246,70 @@ def test_curves_of_an_archive_are_checked() -> None:
     np.savez(stream := io.BytesIO(), indices=[0, 1], offsets=[0], closed=[False], **arrays)
     with pytest.raises(FormatError, match="do not fit together"):
         read_curves(stream.getvalue())
+
+
+def spreadsheet(path: Path, rows: str) -> Path:
+    """Write an OpenDocument sheet of these rows."""
+    spaces = "".join(
+        f' xmlns:{name}="urn:oasis:names:tc:opendocument:xmlns:{name}:1.0"'
+        for name in ("office", "table", "text")
+    )
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("mimetype", "application/vnd.oasis.opendocument.spreadsheet")
+        archive.writestr("META-INF/manifest.xml", "<manifest:manifest/>")
+        archive.writestr(
+            "content.xml",
+            f"<office:document-content{spaces}><office:body><office:spreadsheet>"
+            f'<table:table table:name="one">{rows}</table:table>'
+            "</office:spreadsheet></office:body></office:document-content>",
+        )
+    return path
+
+
+VALUE = '<table:table-cell office:value-type="float" office:value="{0}"/>'
+
+
+def sheet_row(*values: float, times: int = 1, after: str = "") -> str:
+    cells = "".join(VALUE.format(value) for value in values) + after
+    return f'<table:table-row table:number-rows-repeated="{times}">{cells}</table:table-row>'
+
+
+def empty_cells(times: int) -> str:
+    return f'<table:table-cell table:number-columns-repeated="{times}"/>'
+
+
+def test_opendocument_sheets_with_a_far_cell_are_refused_and_empty_ends_are_not(
+    tmp_path: Path,
+) -> None:
+    pytest.importorskip("python_calamine")
+    near = sheet_row(0, 1, after=empty_cells(16_382)) + sheet_row(2, 3)
+    path = spreadsheet(tmp_path / "p.ods", near + sheet_row(after=empty_cells(9), times=10**6))
+    assert read(path).xy.tolist() == [[0, 1], [2, 3]]
+    below = near + sheet_row(times=10**6) + sheet_row(4, 5, after=empty_cells(90) + VALUE.format(6))
+    aside = near + sheet_row(4, after=empty_cells(10**8) + VALUE.format(5))
+    for rows in (below, aside, sheet_row(*[0] * 90, times=10**6)):
+        with pytest.raises(FormatError, match=r"a sheet spans [\d,]+ rows and [\d,]+ columns"):
+            read(spreadsheet(tmp_path / "far.ods", rows))
+
+
+def test_binary_workbooks_with_a_far_cell_are_refused(tmp_path: Path) -> None:
+    pytest.importorskip("python_calamine")
+
+    def record(kind: int, *numbers: int) -> bytes:
+        body = b"".join(number.to_bytes(4, "little") for number in numbers)
+        return bytes([kind, len(body)]) + body
+
+    def workbook(*records: bytes) -> Path:
+        path = tmp_path / "far.xlsb"
+        with zipfile.ZipFile(path, "w") as archive:
+            # A record of the kind 148, in two bytes, and one of 200 bytes.
+            other = b"\x94\x01\x10" + bytes(16) + b"\x81\x01\xc8\x01" + bytes(200)
+            archive.writestr("xl/worksheets/sheet1.bin", other + b"".join(records))
+        return path
+
+    first, far = record(0, 0) + record(5, 0, 0, 0, 0), record(0, 10**6) + record(5, 99, 0, 0, 0)
+    with pytest.raises(FormatError, match="spans 1,000,001 rows and 100 columns"):
+        read(workbook(first, far))
+    # Without it there is nothing to refuse before the library looks.
+    with pytest.raises(FormatError, match="(?!.*spans)"):
+        read(workbook(first))

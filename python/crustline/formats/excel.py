@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import zipfile
 from collections.abc import Sequence
 from pathlib import Path
@@ -14,14 +13,13 @@ import numpy.typing as npt
 from crustline.formats.format import Format, Layer
 from crustline.formats.names import find_coordinates
 from crustline.formats.options import COLUMNS, LAYER
+from crustline.formats.sheet_extent import extents
 from crustline.formats.source import Source
 from crustline.points import Points
 
 Row = list[Any]
 #: Cells of a sheet, empty ones included: they take a few dozen bytes each.
 _MOST_CELLS = 50_000_000
-#: Where a cell, or a row, says that it is.
-_PLACE = re.compile(rb'<(?:\w{1,20}:)?(?:c|row)\s[^>]*?\br="([A-Za-z]*)(\d+)"')
 
 
 def read(
@@ -85,25 +83,12 @@ def _refuse_far_cells(source: Source, path: Path) -> None:
     if not zipfile.is_zipfile(path):
         return
     with zipfile.ZipFile(path) as archive:
-        for name in archive.namelist():
-            if name.startswith("xl/worksheets/") and name.endswith(".xml"):
-                places = _PLACE.findall(archive.read(name))
-                rows = {int(row) for _, row in places} or {0}
-                columns = [_column_number(each) for each in {letters for letters, _ in places}]
-                height, width = max(rows) - min(rows) + 1, max(columns, default=0) + 1
-                if height * width > _MOST_CELLS:
-                    raise source.error(
-                        f"a sheet spans {height:,} rows and {width:,} columns: "
-                        "delete what is far from the points"
-                    )
-
-
-def _column_number(letters: bytes) -> int:
-    """Return the position of a column by its letters: 0 for A."""
-    number = 0
-    for letter in letters.upper():
-        number = 26 * number + letter - 64
-    return number - 1
+        for height, width in extents(archive):
+            if height * width > _MOST_CELLS:
+                raise source.error(
+                    f"a sheet spans {height:,} rows and {width:,} columns: "
+                    "delete what is far from the points"
+                )
 
 
 def _numbers(
