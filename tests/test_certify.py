@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 import generators
-from crustline import Delaunay, InputError, beta_skeleton, crust, nn_crust
+from crustline import Delaunay, InputError, beta_skeleton, crust, gabriel, nn_crust
 from crustline.certify import MARGIN, Certificate, certify
 from crustline.shapes import (
     SmoothCurve,
@@ -210,6 +210,27 @@ def square() -> NDArray[np.float64]:
     corners = np.array([(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)], float)
     steps = np.diff(corners, axis=0)
     return (corners[:-1, None] + side[None, :, None] * steps[:, None]).reshape(-1, 2)
+
+
+def test_the_crust_is_found_once_for_all_edges_that_are_certified(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    rng = np.random.default_rng(4)
+    delaunay = Delaunay(rng.random((300, 2)))
+    certificates = [certify(delaunay, nn_crust(delaunay)).to_dict()]
+    kept = delaunay.kept("crust")
+    assert kept is not None
+    assert np.array_equal(kept, crust(Delaunay(delaunay.points)))
+    assert not kept.flags.writeable
+    monkeypatch.setattr(Delaunay, "select", None)
+    assert crust(delaunay) is kept
+    monkeypatch.undo()
+    # Known or not, it leads to the same.
+    edges = gabriel(delaunay)
+    alone = certify(Delaunay(delaunay.points), edges)
+    certificates += [alone.to_dict(), certify(delaunay, edges).to_dict()]
+    assert delaunay.kept("crust") is kept
+    assert certificates[0] != certificates[1] == certificates[2]
 
 
 def test_each_reason_has_its_points() -> None:

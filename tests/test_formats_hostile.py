@@ -311,5 +311,5 @@ def test_binary_workbooks_with_a_far_cell_are_refused(tmp_path: Path) -> None:
     with pytest.raises(FormatError, match="spans 1,000,001 rows and 100 columns"):
         read(workbook(first, far))
     # Without it there is nothing to refuse before the library looks.
-    with pytest.raises(FormatError, match="(?!.*spans)"):
+    with pytest.raises(FormatError, match="python-calamine cannot read it"):
         read(workbook(first))

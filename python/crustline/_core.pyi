@@ -158,7 +158,9 @@ class Interpolant:
         crust: _Integers | None = None,
         threads: int | None = None,
         progress: _Progress | None = None,
-    ) -> tuple[str | None, bool, _Floats, NDArray[np.uint8], NDArray[np.uint8]]: ...
+    ) -> tuple[
+        str | None, bool, _Floats, NDArray[np.uint8], NDArray[np.uint8], _Integers | None
+    ]: ...
 
 def ridge(
     delaunay: Delaunay,

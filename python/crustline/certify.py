@@ -269,11 +269,13 @@ def certify(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = None
     delaunay = as_delaunay(points)
     chosen = as_selected(delaunay, edges)
     thresholds = {"beta-skeleton": guaranteed_r("beta_skeleton"), "crust": guaranteed_r("crust")}
-    method, guaranteed, ratio, of_edges, of_points = interpolant(delaunay, chosen).run(
+    method, guaranteed, ratio, of_edges, of_points, crust = interpolant(delaunay, chosen).run(
         _core.Interpolant.certificate,
         (BETA, thresholds["beta-skeleton"], thresholds["crust"], MARGIN),
         delaunay.kept("crust"),
     )
+    if crust is not None:
+        delaunay.cached("crust", lambda: crust)
     threshold = thresholds.get(method or "", 0.0)
     return Certificate(
         points=delaunay.points,

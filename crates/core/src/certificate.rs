@@ -88,6 +88,8 @@ pub struct Certificate {
     pub edges: Vec<Reason>,
     /// For each row why it is weak.
     pub points: Vec<Reason>,
+    /// The crust, where it was needed: to be `known` the next time.
+    pub crust: Option<Edges>,
 }
 
 /// Certify `edges`, which are canonical and have been made smooth; `known` is the crust, for those who have it.
@@ -112,13 +114,15 @@ pub fn certify(
     let most = 4.0 * libm::asin(threshold / 2.0);
     let of_degree = |(&degree, &turn): (&u32, &f64)| reason_of_degree(degree, turn > most);
     let mut points: Vec<Reason> = degrees.par_iter().zip(turns.par_iter()).map(of_degree).collect();
-    for row in crust.iter().flat_map(|crust| without(crust, edges)).flatten() {
+    // Where a theorem applies the edges differ from nothing.
+    let other = crust.iter().filter(|_| theorem.is_none());
+    for row in other.clone().flat_map(|crust| without(crust, edges)).flatten() {
         points[*row as usize] = points[*row as usize].max(Reason::Missing);
     }
     let is_sparse = |ratio: f64| ratio.is_nan() || (1.0 + theorems.margin) * ratio >= threshold;
     let of_edge = |(&edge, &ratio): (&[u32; 2], &f64)| reason(edge, &points, is_sparse(ratio));
     let mut of_edges: Vec<Reason> = edges.par_iter().zip(ratios.par_iter()).map(of_edge).collect();
-    for edge in crust.iter().flat_map(|crust| without(edges, crust)) {
+    for edge in other.flat_map(|crust| without(edges, crust)) {
         let k = edges.binary_search(edge).unwrap_or_default();
         of_edges[k] = Reason::Unselected;
     }
@@ -129,10 +133,10 @@ pub fn certify(
     }
     let sound = points.iter().chain(&of_edges).all(|&reason| reason == Reason::None);
     let guaranteed = theorem.is_some() && !edges.is_empty() && sound;
-    Ok(Certificate { theorem, threshold, guaranteed, ratios, edges: of_edges, points })
+    Ok(Certificate { theorem, threshold, guaranteed, ratios, edges: of_edges, points, crust })
 }
 
-/// The theorem about these edges, or, if there is none, the crust, which they differ from.
+/// The theorem about these edges, if there is one, and the crust, if it was looked at.
 fn theorem(
     delaunay: &Delaunay,
     edges: &Edges,
@@ -150,7 +154,7 @@ fn theorem(
         return Ok((Some(Theorem::BetaSkeleton), None));
     }
     let crust = known.map_or_else(|| crust(delaunay, progress), Ok)?;
-    Ok(if crust == *edges { (Some(Theorem::Crust), None) } else { (None, Some(crust)) })
+    Ok(((crust == *edges).then_some(Theorem::Crust), Some(crust)))
 }
 
 fn reason_of_degree(degree: u32, is_corner: bool) -> Reason {

@@ -37,7 +37,11 @@ impl VoronoiVertices {
         let triangles = delaunay.triangles();
         memory::check(triangles.len(), BYTES)?;
         let corners = |t: usize| triangles[t].map(|vertex| delaunay.point(vertex));
-        let place = |t: usize| (around(corners(t)), triangles[t]);
+        let place = |t: usize| {
+            #[cfg(test)]
+            crate::progress::work_tests::count(crate::progress::work_tests::PLACE);
+            (around(corners(t)), triangles[t])
+        };
         let empty = (Bounds::EMPTY, [0; 3]);
         let mut places = map(triangles.len(), empty, &progress.quiet(), place)?;
         halve(&mut places, |(bounds, _)| bounds.low, progress)?;
@@ -81,6 +85,7 @@ fn around(corners: [Point; 3]) -> Bounds {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::space::oriented::CORNERS;
     use std::cell::Cell;
 
     #[test]
@@ -98,7 +103,7 @@ mod tests {
             let looked = Cell::new(0);
             let may_meet = |seen: &Seen| {
                 looked.set(looked.get() + 1);
-                seen.bounds.square_to([0.0; 2]) <= seen.doubt * seen.doubt
+                seen.bounds.square_to([0.0; 2]) <= (CORNERS * seen.reach).powi(2)
             };
             assert_eq!(vertices.find(center, may_meet, |other| other == triangle), Some(triangle));
             assert!(looked.get() < 200);

@@ -1,6 +1,6 @@
 //! The smooth interpolant of edges as a Python object: local feature sizes, and the certificate.
 
-use crate::arrays::{rows, values};
+use crate::arrays::{integer_rows, rows, values};
 use crate::call::Call;
 use crate::delaunay::Delaunay;
 use crate::edges::canonical;
@@ -8,12 +8,13 @@ use crate::threads::aside;
 use crustline_core as core;
 use crustline_core::certificate::{Reason, Theorem, Theorems, certify};
 use crustline_core::edges::Edges;
-use numpy::{PyArray1, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 type Floats<'py> = Bound<'py, PyArray1<f64>>;
 type Codes<'py> = Bound<'py, PyArray1<u8>>;
-type Certified<'py> = (Option<&'static str>, bool, Floats<'py>, Codes<'py>, Codes<'py>);
+type Crust<'py> = Option<Bound<'py, PyArray2<i64>>>;
+type Certified<'py> = (Option<&'static str>, bool, Floats<'py>, Codes<'py>, Codes<'py>, Crust<'py>);
 
 /// The local feature size of samples and edges, made once and read by many.
 #[pyclass(frozen, module = "crustline._core")]
@@ -58,7 +59,8 @@ impl Interpolant {
     }
 
     /// The method that a theorem about the edges names, if there is one; is it fulfilled everywhere; the sampling ratio of
-    /// each edge; and by number why each edge and each row is weak. `crust` is the crust, if it is known.
+    /// each edge; by number why each edge and each row is weak; and the crust, if it was needed and not known. `crust` is the crust,
+    /// if it is known.
     #[pyo3(signature = (theorems, crust=None, threads=None, progress=None))]
     fn certificate<'py>(
         &self,
@@ -72,15 +74,18 @@ impl Interpolant {
         let [beta, of_skeleton, of_crust, margin] = theorems;
         let theorems = Theorems { beta, of_skeleton, of_crust, margin };
         let size = delaunay.input_len();
-        let crust =
+        let known =
             crust.map(|edges| canonical(py, threads, rows(py, &edges)?, size)).transpose()?;
+        let is_known = known.is_some();
         let call = Call { size, threads, callback: progress };
         let found = call.run(py, |progress| {
-            certify(delaunay, &self.edges, &self.inner, &theorems, crust, progress)
+            certify(delaunay, &self.edges, &self.inner, &theorems, known, progress)
         })?;
         let theorem = found.theorem.map(Theorem::method);
         let codes = [found.edges, found.points].map(|reasons| values(py, Reason::codes(reasons)));
         let [of_edges, of_points] = codes;
-        Ok((theorem, found.guaranteed, values(py, found.ratios), of_edges, of_points))
+        let crust = found.crust.filter(|_| !is_known);
+        let crust = crust.map(|edges| integer_rows(py, threads, &edges)).transpose()?;
+        Ok((theorem, found.guaranteed, values(py, found.ratios), of_edges, of_points, crust))
     }
 }

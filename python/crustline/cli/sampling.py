@@ -83,9 +83,7 @@ def sample(
     )
 
 
-def _take(
-    curve: SmoothCurve, r: float | None, error: float | None, how: dict[str, Any]
-) -> Sample:
+def _take(curve: SmoothCurve, r: float | None, error: float | None, how: dict[str, Any]) -> Sample:
     from crustline.shapes.sampling import r_sample, sample_for_error
 
     share = None if r is None else as_share("-r", r)

@@ -42,7 +42,7 @@ def _column_number(letters: bytes) -> int:
 
 
 def _of_ods(content: bytes) -> Iterator[Extent]:
-    """Yield the extents of sheets whose rows and cells follow one another, some of them many times."""
+    """Yield the extents of sheets; rows and cells follow one another, some of them many times."""
     height = width = rows = row = column = 0
     for kind, attributes in _OPENING.findall(content):
         repeated = _REPEATED.search(attributes)

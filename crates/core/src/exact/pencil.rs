@@ -4,6 +4,7 @@
 //! left by 90°. A site v to the left of p → q is strictly inside exactly for t > τ(v), one to the right exactly for
 //! t < τ(v), with τ(v) = (v−p)·(v−q) / 2 (q−p)×(v−p). The paper's disks "touching s₁ and s₂" are this pencil.
 
+use crate::exact::angle::Angle;
 use crate::exact::circumcenter::{Center, HomogeneousCenter};
 use crate::exact::double_double::DoubleDouble;
 use crate::exact::filter::{Approximate, ROUNDING, UNDERFLOW};
@@ -35,9 +36,9 @@ pub struct Pencil {
 #[derive(Debug, Clone, Copy)]
 pub struct Vertex {
     triangle: [Point; 3],
-    /// (v−p)·(v−q): negative inside the smallest circle.
+    /// (v−p)·(v−q), up to a positive factor: negative inside the smallest circle.
     power: Approximate,
-    /// (q−p)×(v−p): positive to the left.
+    /// (q−p)×(v−p), times the same: positive to the left.
     height: Approximate,
 }
 
@@ -75,27 +76,27 @@ pub struct Disk {
 }
 
 impl Disk {
-    /// May the disk meet a rectangle between two corners relative to p, in the frame of a direction, off by `off` at most? False only if
-    /// they are certainly apart.
+    /// May the disk meet a rectangle between two corners relative to p, in the frame of a direction? False only if they are certainly
+    /// apart.
     ///
-    /// With c the center, v is outside where v·(v − 2 c) > 0: a sum of a term in each coordinate, each least nearest to the center. It is
-    /// off by 2 |v| for each unit that c is off, so even for a large disk it is known to a small part of |v|.
+    /// The coordinates of no place in it sum to more than `reach`, and the corners are off by up to `off` times that. With c the center, v
+    /// is outside where v·(v − 2 c) > 0: a sum of a term in each coordinate, each least nearest to the center. It is off by 2 |v| for
+    /// each unit that c is off, so even for a large disk it is known to a small part of |v|.
+    #[inline]
     #[must_use]
-    pub fn may_meet(&self, along: Point, [low, high]: [Point; 2], off: f64) -> bool {
+    pub fn may_meet(&self, along: Point, [low, high]: [Point; 2], reach: f64, off: f64) -> bool {
         let center = turned(along, self.center);
-        let size = center[0].abs() + center[1].abs();
-        let (mut least, mut reach) = (0.0, 0.0);
-        for axis in [0, 1] {
+        let term = |axis: usize| {
             let nearest = center[axis].max(low[axis]).min(high[axis]);
-            least += nearest * (nearest - 2.0 * center[axis]);
-            reach += low[axis].abs().max(high[axis].abs());
-        }
+            nearest * (nearest - 2.0 * center[axis])
+        };
+        // The circle goes through p, so the coordinates of its center sum to at most √2 times the radius.
+        let size = 1.5 * self.radius;
         let of_center = self.error + 8.0 * ROUNDING * size;
-        let doubt = reach * (2.0 * of_center + 16.0 * ROUNDING * (reach + 2.0 * size))
-            + 2.0 * off * (reach + 2.0 * (off + size))
-            + UNDERFLOW;
+        let of_place = (2.1 * off + 16.0 * ROUNDING) * (reach + 2.0 * size);
+        let doubt = reach * (2.0 * of_center + of_place) + UNDERFLOW;
         // An unknown (not a number) meets.
-        let is_apart = least > doubt;
+        let is_apart = term(0) + term(1) > doubt;
         !is_apart
     }
 }
@@ -118,6 +119,21 @@ impl Pencil {
         let power = Approximate::of(dot(at, from_q), error * (reach + error));
         let height = Approximate::of(cross(self.chord, at), length * error);
         Vertex { triangle, power, height }
+    }
+
+    /// The circumcenter of a counter-clockwise `triangle` whose first corners are p and q, or q and p.
+    ///
+    /// Its height is half the cotangent of the third corner's angle, times |q − p|² and to its own side; times four squares of the sine
+    /// no quotient is left. However flat the triangle, this is as certain as the angle.
+    #[inline]
+    #[must_use]
+    pub fn own(&self, triangle: [Point; 3]) -> Vertex {
+        let [first, second, apex] = triangle;
+        let Angle { dot, cross, size } = Angle::at(apex, first, second);
+        let side = if first == self.p { 2.0 } else { -2.0 };
+        let error = 14.0 * ROUNDING * size * size + UNDERFLOW;
+        let power = Approximate::of(dot * dot - cross * cross, error);
+        Vertex { triangle, power, height: Approximate::of(side * (dot * cross), error) }
     }
 
     /// The disk inside `circle`.

@@ -95,7 +95,7 @@ pub(crate) fn find_disk(delaunay: &Delaunay, edge: Edge, visit: &mut Visit<'_>) 
     }
     visit.begin()?;
     let pencil = Pencil::new(delaunay.point(edge.p), delaunay.point(edge.q));
-    let through = |corners| Circle::Through(pencil.vertex(corners));
+    let through = |corners| Circle::Through(pencil.own(corners));
     let circle = own.map_or(Circle::Smallest, through);
     match visit.find(delaunay, edge, &pencil, &pencil.disk(circle))? {
         None => Ok(Verdict::In(circle)),
@@ -119,7 +119,7 @@ fn search(
     visit: &mut Visit<'_>,
 ) -> Outcome {
     // The angles at the edge's own apexes are acute, so each center is on the side of its triangle.
-    let vertex = |corners: [u32; 3]| pencil.vertex(corners.map(|vertex| delaunay.point(vertex)));
+    let vertex = |corners: [u32; 3]| pencil.own(corners.map(|vertex| delaunay.point(vertex)));
     let mut high = edge.left.map(|apex| vertex([edge.p, edge.q, apex]));
     let mut low = edge.right.map(|apex| vertex([edge.q, edge.p, apex]));
     loop {

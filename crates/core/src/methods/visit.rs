@@ -5,7 +5,7 @@ use crate::exact::filter::UNDERFLOW;
 use crate::exact::pencil::{Disk, Pencil, Vertex};
 use crate::point::{Point, cross, dot, sub};
 use crate::space::bounds::Bounds;
-use crate::space::oriented::Seen;
+use crate::space::oriented::{CORNERS, Seen};
 use crate::voronoi::VoronoiVertices;
 use std::collections::HashSet;
 
@@ -16,6 +16,9 @@ pub struct Visit<'a> {
     many: HashSet<u32>,
     /// How many cells more than usual the walks to come may pass, if that is limited.
     allowance: Option<usize>,
+    /// How many searches have been given up since the last walk, and how many are before another walk is tried.
+    given_up: usize,
+    patience: usize,
     /// What is looked at instead.
     index: Option<&'a VoronoiVertices>,
 }
@@ -30,8 +33,8 @@ const FEW: usize = 24;
 /// Cells that a walk may always pass.
 const USUAL: usize = 4;
 /// Cells beyond that, for one walk or for many.
-const ALLOWANCE: usize = 1 << 12;
-/// With fewer cells left a search is given up before it begins, and one cell is saved.
+const ALLOWANCE: usize = 1 << 11;
+/// With fewer cells left a search is given up before it begins.
 const LEAST: usize = 16;
 
 /// A Voronoi vertex strictly inside `disk`, if there is one.
@@ -43,8 +46,8 @@ fn find_by_place(
     disk: &Disk,
 ) -> Option<Vertex> {
     let vertex = |triangle: [u32; 3]| pencil.vertex(triangle.map(|corner| delaunay.point(corner)));
-    let may_meet = |&Seen { along, bounds: Bounds { low, high }, doubt }: &Seen| {
-        disk.may_meet(along, [low, high], doubt)
+    let may_meet = |&Seen { along, bounds: Bounds { low, high }, reach }: &Seen| {
+        disk.may_meet(along, [low, high], reach, CORNERS)
     };
     let holds = |triangle| pencil.holds(disk, &vertex(triangle));
     index.find(pencil.p, may_meet, holds).map(vertex)
@@ -53,7 +56,7 @@ fn find_by_place(
 impl<'a> Visit<'a> {
     /// One whose walks are given up where they pass more cells than pays.
     pub fn limited() -> Self {
-        Self { allowance: Some(ALLOWANCE), ..Self::default() }
+        Self { allowance: Some(ALLOWANCE), patience: LEAST, ..Self::default() }
     }
 
     /// One that does not walk.
@@ -66,8 +69,13 @@ impl<'a> Visit<'a> {
     pub fn begin(&mut self) -> Result<(), TooLong> {
         match &mut self.allowance {
             Some(allowance) if *allowance < LEAST => {
-                *allowance += 1;
-                Err(TooLong)
+                self.given_up += 1;
+                if self.given_up <= self.patience {
+                    return Err(TooLong);
+                }
+                // If it, too, is given up, the next ones are likely to be: wait for twice as long.
+                (*allowance, self.given_up, self.patience) = (LEAST, 0, 2 * self.patience);
+                Ok(())
             }
             _ => Ok(()),
         }

@@ -12,6 +12,8 @@ use std::f64::consts::TAU;
 
 /// Looking at a Voronoi cell.
 pub const CELL: usize = 100;
+/// Putting a Voronoi vertex into boxes.
+pub const PLACE: usize = 150;
 /// Looking at a box.
 pub const BOX: usize = 10;
 /// Comparing two lengths.

@@ -29,11 +29,13 @@ impl Boxes<Oriented> {
     /// The boxes around `items`, each along its own.
     #[must_use]
     pub fn oriented<T: Sync>(items: &[T], around: impl Fn(&T) -> Bounds + Sync) -> Self {
-        let node = |items: &[T]| Oriented::around(items.iter().map(&around));
-        let level = |width| items.par_chunks(width).map(node).collect::<Vec<_>>();
-        let mut levels = vec![level(FAN)];
-        while levels.last().is_some_and(|level| level.len() > 1) {
-            levels.push(level(FAN.pow(levels.len() as u32 + 1)));
+        let leaf = |items: &[T]| Oriented::around(items.iter().map(&around));
+        let mut levels: Vec<Vec<Oriented>> = vec![items.par_chunks(FAN).map(leaf).collect()];
+        while let Some(below) = levels.last().filter(|level| level.len() > 1) {
+            let items = items.par_chunks(FAN.pow(levels.len() as u32 + 1));
+            let node =
+                |(nodes, items): (&[_], &[T])| Oriented::over(nodes, items.iter().map(&around));
+            levels.push(below.par_chunks(FAN).zip(items).map(node).collect());
         }
         Self { items: items.len() as u32, levels }
     }
