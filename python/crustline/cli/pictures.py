@@ -23,9 +23,14 @@ LAYERS = (
 @picture_options(".png", ".svg", ".pdf")
 @click.option("--show", default="points,curves", show_default=True, metavar="WORDS",
               help=f"What to draw, any of {', '.join(LAYERS)}.")  # fmt: skip
+@click.option(
+    "--background",
+    metavar="FILE|world",
+    help="Outlines of a map below: lines and polygons of a file, or the world's coasts.",
+)
 @method_options
 @fit_options
-def plot(source: Source, output: Output, show: str, method: Method) -> None:
+def plot(source: Source, output: Output, show: str, background: str | None, method: Method) -> None:
     """Draw points and what is computed from them.
 
     INPUT is a file of points; - is standard input. Writes a picture: `curves`
@@ -35,6 +40,7 @@ def plot(source: Source, output: Output, show: str, method: Method) -> None:
 
     \b
         crustline plot goose.csv -o goose.png --show points,curves,medial-axis
+        crustline plot buoys.csv -o buoys.png --crs EPSG:4326 --background world
     """
     layers = [word.strip() for word in show.split(",")]
     for word in layers:
@@ -45,7 +51,7 @@ def plot(source: Source, output: Output, show: str, method: Method) -> None:
 
     with reconstruction(source, method, output.quiet) as made:
         for file in output.files if not output.dry_run else ():
-            picture(made, file, show=layers)
+            picture(made, file, show=layers, background=background)
     count = len(made.points)
     output.report(
         f"{source.name}: {counted(count, 'point')}",

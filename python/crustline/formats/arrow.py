@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -20,6 +21,17 @@ _POINTS = {
     21: ([("order", "u1"), ("type", "<u4"), ("xyz", "<f8", (2,))], (1,)),
     29: ([("order", "u1"), ("type", "<u4"), ("xyz", "<f8", (3,))], (1001, 0x8000_0001)),
 }
+# The same to be read: order and type within one number, x and y as bytes, in half the time.
+_READ = {
+    size: np.dtype({
+        "names": ["head", "xy"] + ["z"] * (size == 29),
+        "formats": ["<u8", "V16"] + ["<f8"] * (size == 29),
+        "offsets": [0, 5] + [21] * (size == 29),
+        "itemsize": size,
+    })
+    for size in _POINTS
+}  # fmt: skip
+_HEAD = 2**40 - 1
 _LARGEST = max(_POINTS)
 _BLOCK = 1 << 14
 
@@ -116,19 +128,21 @@ def points_of_wkb(array: Any) -> tuple[FloatArray, FloatArray | None] | None:
     """
     chunks = [chunk for chunk in getattr(array, "chunks", [array]) if len(chunk)]
     sizes = {_size_of_points(chunk) for chunk in chunks}
-    if len(sizes) != 1 or None in sizes:
+    if len(sizes) != 1 or None in sizes or sys.byteorder != "little":
         return None
     size = int(sizes.pop() or 0)
     xy = np.empty((sum(map(len, chunks)), 2))
     z = np.empty(len(xy)) if size == _LARGEST else None
+    pairs, heads = xy.view("V16")[:, 0], [code << 8 | 1 for code in _POINTS[size][1]]
     place = 0
     for block in _blocks(chunks, size):
         end = place + len(block)
-        if not ((block["order"] == 1) & _is_one_of(block["type"], _POINTS[size][1])).all():
+        found = block["head"] & _HEAD
+        if not ((found == heads[0]).all() or np.isin(found, heads).all()):
             return None
-        xy[place:end] = block["xyz"][:, :2]
+        pairs[place:end] = block["xy"]
         if z is not None:
-            z[place:end] = block["xyz"][:, 2]
+            z[place:end] = block["z"]
         place = end
     return xy, z
 
@@ -160,13 +174,6 @@ def _ends_of(chunk: Any) -> npt.NDArray[Any]:
 def _blocks(chunks: list[Any], size: int) -> Iterator[npt.NDArray[Any]]:
     for chunk in chunks:
         first = int(_ends_of(chunk)[0])
-        points = np.frombuffer(chunk.buffers()[2], _POINTS[size][0], len(chunk), first)
+        points = np.frombuffer(chunk.buffers()[2], _READ[size], len(chunk), first)
         for start in range(0, len(points), _BLOCK):
             yield points[start : start + _BLOCK]
-
-
-def _is_one_of(values: npt.NDArray[Any], codes: tuple[int, ...]) -> npt.NDArray[np.bool_]:
-    found: npt.NDArray[np.bool_] = values == codes[0]
-    for code in codes[1:]:
-        found = found | (values == code)
-    return found

@@ -10,6 +10,7 @@ References
 """
 
 from crustline.plot.axes import BLACK, BLUE, GRAY, GREEN, ORANGE, PURPLE, SKY, VERMILLION
+from crustline.plot.background import plot_background
 from crustline.plot.certificate import plot_certificate
 from crustline.plot.connection import plot_connection
 from crustline.plot.curves import plot_curves, plot_edges
@@ -30,6 +31,7 @@ __all__ = [
     "SKY",
     "VERMILLION",
     "picture",
+    "plot_background",
     "plot_certificate",
     "plot_connection",
     "plot_curves",

@@ -13,6 +13,7 @@ from crustline.errors import InputError, require
 from crustline.plot.axes import (
     axes,
 )
+from crustline.plot.background import plot_background
 from crustline.plot.certificate import plot_certificate
 from crustline.plot.connection import plot_connection
 from crustline.plot.curves import plot_curves
@@ -25,6 +26,7 @@ from crustline.reconstruction import Reconstruction, as_reconstruction
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from crustline.curves import Curves
     from crustline.delaunay import Delaunay
 
 #: What `picture` can show, drawn in this order.
@@ -51,6 +53,7 @@ def picture(
     path: str | os.PathLike[str],
     *,
     show: Sequence[str] = ("points", "curves"),
+    background: str | os.PathLike[str] | Curves | None = None,
 ) -> None:
     """Write a picture of points and of what is computed from them to a file.
 
@@ -64,6 +67,8 @@ def picture(
         What to draw, any of "points", "delaunay", "voronoi", "curves" (those that the method
         finds), "confidence" (how sure `connect` is of each edge), "medial-axis", "lfs",
         "certificate", "indices", in any order.
+    background : "world", path-like or Curves, optional
+        Outlines of a map below, as for `plot_background`.
 
     Raises
     ------
@@ -94,6 +99,8 @@ def picture(
     with rc_context():
         rcdefaults()
         ax, _ = axes(None, made.points)
+        if background is not None:
+            plot_background(made.points, background, ax)
         for name, draw in LAYERS.items():
             if name in show:
                 draw(made, ax)
