@@ -87,13 +87,15 @@ def _around(outlines: Curves, points: Points) -> FloatArray:
     if (there.crs is None) != (crs is None):
         without = "points" if crs is None else "outlines of the background"
         raise InputError(f"the {without} have no CRS, and the others have: name it (--crs)")
-    if crs is None or crs == there.crs:
+    if crs is None or there.crs is None or crs == there.crs:
         return _near(there.xy, outlines.edges, points.xy, is_geographic(there))
     # What is far away may be nowhere in the other system: only what is near is projected.
     here = project(points.replace(crs=crs), there.crs)
     segments = _near(there.xy, outlines.edges, here.xy, is_geographic(there))
-    ends = Points(segments.reshape(-1, 2), crs=there.crs)
-    return project(ends, crs).xy.reshape(-1, 2, 2) if len(ends) else segments
+    if not len(segments):
+        return segments
+    ends: FloatArray = project(Points(segments.reshape(-1, 2), crs=there.crs), crs).xy
+    return ends.reshape(segments.shape)
 
 
 def _near(
