@@ -94,8 +94,9 @@ def _around(outlines: Curves, points: Points) -> FloatArray:
     segments = _near(there.xy, outlines.edges, here.xy, is_geographic(there))
     if not len(segments):
         return segments
-    ends: FloatArray = project(Points(segments.reshape(-1, 2), crs=there.crs), crs).xy
-    return ends.reshape(segments.shape)
+    ends = Points(segments.reshape(-1, 2), crs=there.crs)
+    projected: FloatArray = project(ends, crs).xy.reshape(-1, 2, 2)
+    return projected
 
 
 def _near(
@@ -109,4 +110,5 @@ def _near(
     near = ((most >= low - margin) & (least <= high + margin)).all(axis=1)
     if degrees:  # across the 180th meridian they would lead around the world
         near &= most[:, 0] - least[:, 0] <= 180
-    return segments[near]
+    kept: FloatArray = segments[near]
+    return kept
