@@ -40,7 +40,6 @@ def plot(source: Source, output: Output, show: str, background: str | None, meth
 
     \b
         crustline plot goose.csv -o goose.png --show points,curves,medial-axis
-        crustline plot buoys.csv -o buoys.png --crs EPSG:4326 --background world
     """
     layers = [word.strip() for word in show.split(",")]
     for word in layers:
