@@ -5,6 +5,7 @@
 use crate::error::Result;
 use crate::progress::Progress;
 use rayon::prelude::*;
+use std::borrow::Borrow;
 use std::cmp::Ordering;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -133,8 +134,8 @@ pub fn sort_by<T: Send>(
 }
 
 /// Move the items of `parts` into `buckets`, those of each in their order; return all, and how many are in each bucket.
-pub fn scatter<T: Copy + Send + Sync>(
-    parts: &[Vec<T>],
+pub fn scatter<T: Copy + Send + Sync, P: Borrow<[T]> + Sync>(
+    parts: &[P],
     empty: T,
     buckets: usize,
     bucket: impl Fn(&T) -> usize + Sync,
@@ -144,24 +145,29 @@ pub fn scatter<T: Copy + Send + Sync>(
         let count = all.len();
         return (all, vec![count]);
     }
-    let groups: Vec<&[Vec<T>]> = parts.chunks(parts.len().div_ceil(TASKS).max(1)).collect();
+    let groups: Vec<&[P]> = parts.chunks(parts.len().div_ceil(TASKS).max(1)).collect();
     let mut counts = vec![vec![0; buckets]; groups.len()];
     // Inner iteration, here and below: `for` over `flatten` takes twice the time.
     each(groups.iter().zip(&mut counts).collect(), |_, (group, counts)| {
-        group.iter().flatten().for_each(|item| counts[bucket(item)] += 1);
+        items(group).for_each(|item| counts[bucket(item)] += 1);
     });
     let within = |b: usize| counts.iter().map(move |counts| counts[b]);
-    let mut all = vec![empty; parts.iter().map(Vec::len).sum()];
+    let mut all = vec![empty; parts.iter().map(|part| part.borrow().len()).sum()];
     let mut places: Vec<_> = groups.iter().map(|_| Vec::with_capacity(buckets)).collect();
     for (k, place) in split(&mut all, (0..buckets).flat_map(within)).into_iter().enumerate() {
         places[k % groups.len()].push(place.iter_mut());
     }
     each(groups.iter().zip(places).collect(), |_, (group, mut places)| {
-        group.iter().flatten().for_each(|item| {
+        items(group).for_each(|item| {
             *places[bucket(item)].next().expect("as many as were counted") = *item;
         });
     });
     (all, (0..buckets).map(|b| within(b).sum()).collect())
+}
+
+/// The items of all `parts`.
+fn items<'a, T: 'a>(parts: &'a [impl Borrow<[T]>]) -> impl Iterator<Item = &'a T> {
+    parts.iter().flat_map(|part| part.borrow())
 }
 
 /// Split `slice` into successive parts of these lengths, which sum to no more than its own.
@@ -194,6 +200,6 @@ mod tests {
             let of = |b| items.iter().filter(|&item| bucket(item) == b).count();
             assert_eq!(counts, (0..10).map(of).collect::<Vec<_>>());
         }
-        assert_eq!(scatter(&[], 0, 4, bucket), (Vec::new(), vec![0; 4]));
+        assert_eq!(scatter::<u32, Vec<u32>>(&[], 0, 4, bucket), (Vec::new(), vec![0; 4]));
     }
 }

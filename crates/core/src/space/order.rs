@@ -5,7 +5,7 @@
 //! data base", IBM, 1966.
 
 use crate::error::{Error, Result};
-use crate::parts::{self, in_parts, split, try_each};
+use crate::parts::{self, GRAIN, split, try_each};
 use crate::point::{Point, lexicographic};
 use crate::progress::{Progress, Stage};
 use crate::space::bounds::Bounds;
@@ -16,8 +16,6 @@ const BUCKET: usize = 64;
 const MOST_BUCKETS: usize = 1 << 12;
 /// Buckets that one task sorts.
 const BUCKETS: usize = 16;
-/// Rows that one task takes at a time.
-const GRAIN: usize = 1 << 14;
 
 /// Distinct points along the Z-order curve, and where they came from.
 #[derive(Debug)]
@@ -129,10 +127,11 @@ fn spread(x: u32) -> u64 {
 /// One pass into buckets by the leading bits, then each bucket by comparison.
 fn sorted_keys(points: &[Point], grid: &Grid, scale: f64, progress: &Progress) -> Result<Vec<Key>> {
     let key = |row: usize| (grid.code(points[row].map(|x| x * scale)), row as u32);
-    let parts = in_parts(points.len(), GRAIN, progress, |rows| rows.map(key).collect())?;
+    let keys = parts::map(points.len(), (0, 0), progress, key)?;
     let buckets = (points.len() / BUCKET).next_power_of_two().min(MOST_BUCKETS);
     // A shift by all 64 bits leaves nothing.
     let bucket = |key: &Key| key.0.checked_shr(64 - buckets.trailing_zeros()).unwrap_or(0) as usize;
+    let parts: Vec<&[Key]> = keys.chunks(GRAIN).collect();
     let (mut keys, counts) = parts::scatter(&parts, (0, 0), buckets, bucket);
     progress.advance(0)?;
     let parts = split(&mut keys, counts.chunks(BUCKETS).map(|counts| counts.iter().sum()));
