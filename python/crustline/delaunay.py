@@ -80,7 +80,7 @@ class Delaunay:
     -----
     Exact. Where four or more points lie on one empty circle, its diagonals depend on coordinates
     alone, not on the order of the rows. Divide and conquer [1]_ with alternating cuts [2]_ along a
-    Z-order curve: O(n log n) time, about 130 bytes a point at the peak. All arrays are read-only
+    Z-order curve: O(n log n) time, about 140 bytes a point at the peak. All arrays are read-only
     and made when first asked for.
 
     References

@@ -167,7 +167,7 @@ pub fn scatter<T: Copy + Send + Sync, P: Borrow<[T]> + Sync>(
 
 /// The items of all `parts`.
 fn items<'a, T: 'a>(parts: &'a [impl Borrow<[T]>]) -> impl Iterator<Item = &'a T> {
-    parts.iter().flat_map(|part| part.borrow())
+    parts.iter().flat_map(Borrow::borrow)
 }
 
 /// Split `slice` into successive parts of these lengths, which sum to no more than its own.

@@ -9,6 +9,7 @@ use crate::parts::{self, GRAIN, split, try_each};
 use crate::point::{Point, lexicographic};
 use crate::progress::{Progress, Stage};
 use crate::space::bounds::Bounds;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// Points in one bucket of the first pass of the sort, about.
 const BUCKET: usize = 64;
@@ -44,8 +45,8 @@ pub fn order(points: &[Point], progress: &Progress) -> Result<Order> {
         check_scaling(points, scale, bounds.largest())?;
     }
     let grid = Grid::around(&bounds, scale);
-    let mut keys = sorted_keys(points, &grid, scale, progress)?;
-    let duplicates = set_duplicates_aside(&mut keys, points);
+    let (mut keys, is_tied) = sorted_keys(points, &grid, scale, progress)?;
+    let duplicates = if is_tied { set_duplicates_aside(&mut keys, points) } else { Vec::new() };
     Ok(Order {
         points: parts::collect(&keys, |key| points[key.1 as usize].map(|x| x * scale)),
         rows: parts::collect(&keys, |key| key.1),
@@ -122,35 +123,46 @@ fn spread(x: u32) -> u64 {
     x
 }
 
-/// The keys of all points, by code; equal ones by x, y, then row.
+/// The keys of all points, by code; equal ones by x, y, then row. And are there equal ones?
 ///
 /// One pass into buckets by the leading bits, then each bucket by comparison.
-fn sorted_keys(points: &[Point], grid: &Grid, scale: f64, progress: &Progress) -> Result<Vec<Key>> {
+fn sorted_keys(
+    points: &[Point],
+    grid: &Grid,
+    scale: f64,
+    progress: &Progress,
+) -> Result<(Vec<Key>, bool)> {
     let key = |row: usize| (grid.code(points[row].map(|x| x * scale)), row as u32);
     let keys = parts::map(points.len(), (0, 0), progress, key)?;
     let buckets = (points.len() / BUCKET).next_power_of_two().min(MOST_BUCKETS);
-    // A shift by all 64 bits leaves nothing.
-    let bucket = |key: &Key| key.0.checked_shr(64 - buckets.trailing_zeros()).unwrap_or(0) as usize;
+    // Of a single one this is not asked.
+    let bucket = |key: &Key| (key.0 >> (64 - buckets.trailing_zeros())) as usize;
     let parts: Vec<&[Key]> = keys.chunks(GRAIN).collect();
     let (mut keys, counts) = parts::scatter(&parts, (0, 0), buckets, bucket);
     progress.advance(0)?;
+    let tied = AtomicBool::new(false);
     let parts = split(&mut keys, counts.chunks(BUCKETS).map(|counts| counts.iter().sum()));
-    try_each(parts, |_, part| {
-        for bucket in part.chunk_by_mut(|a, b| bucket(a) == bucket(b)) {
+    try_each(parts.into_iter().zip(counts.chunks(BUCKETS)).collect(), |_, (part, counts)| {
+        for bucket in split(part, counts.iter().copied()) {
             bucket.sort_unstable_by_key(|key| key.0);
         }
-        sort_runs(part, points);
+        if sort_runs(part, points) {
+            tied.store(true, Relaxed);
+        }
         progress.advance(part.len())
     })?;
-    Ok(keys)
+    Ok((keys, tied.into_inner()))
 }
 
-/// Sort each run of equal codes by x, y, then row.
-fn sort_runs(keys: &mut [Key], points: &[Point]) {
+/// Sort each run of equal codes by x, y, then row. Is there any?
+fn sort_runs(keys: &mut [Key], points: &[Point]) -> bool {
+    let mut is_tied = false;
     let at = |key: &Key| &points[key.1 as usize];
     for run in keys.chunk_by_mut(|a, b| a.0 == b.0).filter(|run| run.len() > 1) {
         run.sort_unstable_by(|a, b| lexicographic(at(a), at(b)).then(a.1.cmp(&b.1)));
+        is_tied = true;
     }
+    is_tied
 }
 
 /// Take all but the first row of each run of equal points out; return them with that first row, sorted.
