@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import json
 import os
 import platform
@@ -50,6 +51,7 @@ def perform(
         return before
     wall, cpu, on_files = time.perf_counter(), time.process_time(), file_seconds()
     files, counts = step(Path(folder), **arguments)
+    _give_back()
     cost = {
         "wall": time.perf_counter() - wall,
         "cpu": time.process_time() - cpu,
@@ -58,6 +60,13 @@ def perform(
         "process": f"{platform.node()}:{os.getpid()}",
     }
     return Done(stage, number, files, counts, cost)
+
+
+def _give_back() -> None:
+    """Give memory that was freed back to the system, where malloc is asked to."""
+    # Else small blocks that stay keep glibc's heap from shrinking, a little more with each step.
+    with contextlib.suppress(OSError, AttributeError, TypeError):
+        ctypes.CDLL(None).malloc_trim(0)
 
 
 def _peak_memory() -> int:
