@@ -128,6 +128,7 @@ def test_two_systems_in_a_file_are_for_the_user_to_choose_from() -> None:
     [
         ("""8°30'36"E;47°15'N""", [8.51, 47.25]),
         ("8.5E;47.25N", [8.5, 47.25]),
+        ("""2.0E;40°20'0.5"N""", [2.0, 40 + 20 / 60 + 0.5 / 3600]),
         ("73.5 W;2.0S", [-73.5, -2.0]),
         ("E 8° 30.6';N 47° 15'", [8.51, 47.25]),
         ("8:30:36E;47:15:00N", [8.51, 47.25]),
@@ -206,6 +207,12 @@ def test_commas_both_ways_are_refused() -> None:
     refused("600,000,200,000\n600,500,200,250\n600,125,200,750\n", ["commas", "--separator"])
     refused("x,y\n600,000,200,000\n", ["line 2", "4 columns", "semicolons"])
     assert len(read_with_warning("1,25,3,75\n1,50,3,25\n", ["4 columns without names"])) == 2
+
+
+def test_a_comma_before_three_digits_in_quotes_may_mean_two_things() -> None:
+    text = 'x,y\n"600,000","200,000"\n"600,500","200,250"\n'
+    refused(text, ["600,000", "--decimal"])
+    assert read_text(text, decimal=".").xy.tolist() == [[600000, 200000], [600500, 200250]]
 
 
 def test_a_comma_before_three_digits_may_mean_two_things() -> None:
