@@ -280,6 +280,7 @@ def test_a_column_of_well_known_text_gives_its_vertices() -> None:
     assert points.columns["id"].tolist() == [7, 8, 8]
     assert points.columns["name"].tolist() == ["a", "b", "b"]
     refused("wkt;name\nPOINT (1 2);a\nPOINT (1 b);b\n", ["line 3", "'1 b'"])
+    refused("wkt;name\n-9999;a\n1.5;b\n", ["line 2", "-9999"])  # a column of numbers alone
     assert read_text("wkt;x;y\nPOINT (9 9);1;2\n").xy.tolist() == [[1, 2]]
 
 

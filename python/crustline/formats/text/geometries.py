@@ -22,7 +22,8 @@ def find_geometries(names: tuple[str, ...], settings: Settings) -> int | None:
 
 def points_of_geometries(table: Table, column: int) -> Points:
     """Return the vertices of all rows, with the other columns repeated over those of a row."""
-    cells = [cell.replace("\n", " ") for cell in table.columns[column]]
+    # A column of numbers alone is there as numbers, and refused as any text that is no geometry.
+    cells = [str(cell).replace("\n", " ") for cell in table.columns[column]]
     filled = np.array([bool(cell.strip()) for cell in cells], bool)
     rows = np.flatnonzero(filled).tolist()
     if len(rows) < len(cells):
