@@ -25,14 +25,35 @@ const ARTANH: [f64; 5] = [1.0, 1.0 / 3.0, 1.0 / 5.0, 1.0 / 7.0, 1.0 / 9.0];
 #[must_use]
 pub fn half_turns(u: Point, v: Point) -> f64 {
     let (sine, cosine) = (cross(u, v).abs(), dot(u, v));
-    let (least, most) = (sine.min(cosine.abs()), sine.max(cosine.abs()));
+    let acute = acute([cosine, sine]);
+    let from_axis = if sine <= cosine.abs() { acute } else { 0.5 - acute };
+    if cosine < 0.0 { 1.0 - from_axis } else { from_axis }
+}
+
+/// Half a turn, in the unit of directions.
+pub const HALF_TURN: u32 = 1 << 31;
+
+/// The direction of a vector, in 2⁻³² turns. It turns by 90° and is reflected with the vector, to the last bit; parallel vectors
+/// whose coordinates are exact have the same.
+#[inline]
+#[must_use]
+pub fn direction(v: Point) -> u32 {
+    let acute = (acute(v) * f64::from(HALF_TURN)) as u32;
+    let from_axis = if v[1].abs() <= v[0].abs() { acute } else { HALF_TURN / 2 - acute };
+    let upper = if v[0] < 0.0 { HALF_TURN - from_axis } else { from_axis };
+    if v[1] < 0.0 { upper.wrapping_neg() } else { upper }
+}
+
+/// The angle of a vector to the nearest axis, in half turns.
+#[inline]
+fn acute(v: Point) -> f64 {
+    let [x, y] = v.map(f64::abs);
+    let (least, most) = (x.min(y), x.max(y));
     if most == 0.0 {
         return 0.0;
     }
     let ratio = least / most;
-    let acute = FRAC_1_PI * ratio * series(&ARCTAN, ratio * ratio);
-    let from_axis = if sine <= cosine.abs() { acute } else { 0.5 - acute };
-    if cosine < 0.0 { 1.0 - from_axis } else { from_axis }
+    FRAC_1_PI * ratio * series(&ARCTAN, ratio * ratio)
 }
 
 /// The natural logarithm of a positive number.
@@ -69,6 +90,25 @@ mod tests {
             let found = half_turns([3.0, 0.0], [libm::cos(angle), libm::sin(angle)]);
             assert!((found - f64::from(k) / 1000.0).abs() < 2e-8, "{k}");
         }
+    }
+
+    #[test]
+    fn directions_are_close_and_symmetric() {
+        for k in 0..360 {
+            let angle = std::f64::consts::PI * f64::from(k) / 180.0;
+            let [x, y] = [libm::cos(angle), libm::sin(angle)];
+            let found = direction([x, y]);
+            let turns = f64::from(found) / 2.0 / f64::from(HALF_TURN);
+            assert!((turns - f64::from(k) / 360.0).abs() < 1e-8, "{k}");
+            assert_eq!(direction([-y, x]), found.wrapping_add(HALF_TURN / 2), "{k}");
+            assert_eq!(direction([x, -y]), found.wrapping_neg(), "{k}");
+            assert_eq!(direction([-x, -y]), found ^ HALF_TURN, "{k}");
+            assert_eq!(
+                direction([3.0 * x.round(), 3.0 * y.round()]),
+                direction([x.round(), y.round()])
+            );
+        }
+        assert_eq!(direction([3.0, 1.0]), direction([21.0, 7.0]));
     }
 
     #[test]

@@ -80,13 +80,12 @@ impl Walk<'_> {
         let is_on_crust = of_crust.len() == 2 && self.crust.edge(v as u32, before).is_some();
         let (after, _) = of_crust.iter().find(|&&(end, _)| end != before)?;
         let next = half_edge(candidates, v, *after as usize).filter(|_| is_on_crust)?;
-        let pair = [back, next].map(|e| e - candidates.from(v).start);
         let [a, b] = [back, next].map(|e| spacing.lengths[e]);
         let is_even =
             (a - b).abs() <= self.step || self.is_usual(v, if a > b { back } else { next });
-        let is_paired = pair.iter().all(|&k| k < candidates.pairs(v));
+        let is_paired = [back, next].iter().all(|&e| candidates.is_paired(v, e));
         // The square root of the turn.
-        (is_even && is_paired && turns.of(v, pair) <= BRIDGE_TURN.sqrt()).then_some(next)
+        (is_even && is_paired && turns.of([back, next]) <= BRIDGE_TURN.sqrt()).then_some(next)
     }
 
     /// Is the half-edge from `v` part of the curves, or leads it from end to end and is no longer than random samples as uneven

@@ -129,6 +129,12 @@ impl Candidates {
         self.paired[v] as usize
     }
 
+    /// Does half-edge `e` from `v` form pairs?
+    #[must_use]
+    pub fn is_paired(&self, v: usize, e: usize) -> bool {
+        e < self.from(v).start + self.pairs(v)
+    }
+
     /// Every edge once, as the half-edge from its smaller end, and that end.
     pub fn edges(&self) -> impl Iterator<Item = (usize, usize)> {
         (0..self.vertices())

@@ -61,20 +61,17 @@ impl Costs {
     }
 }
 
-/// What each half-edge's edge costs at first, before anything is known of the curve.
+/// What the edge of half-edge `e` from `v` costs at first, before anything is known of the curve.
 #[must_use]
-pub fn first_edge_costs(
+pub fn first_edge_cost(
     candidates: &Candidates,
     spacing: &Spacing<'_>,
+    v: usize,
+    e: usize,
     constants: &Constants,
-) -> Vec<f32> {
-    candidates.map(0.0, |v, own| {
-        for (own, e) in own.iter_mut().zip(candidates.from(v)) {
-            let ends = [v, candidates.ends[e] as usize];
-            *own = sight_cost(candidates, e, constants)
-                + length_cost(candidates, spacing, ends, e, constants);
-        }
-    })
+) -> f32 {
+    let ends = [v, candidates.ends[e] as usize];
+    sight_cost(candidates, e, constants) + length_cost(candidates, spacing, ends, e, constants)
 }
 
 fn sight_cost(candidates: &Candidates, e: usize, constants: &Constants) -> f32 {
@@ -89,7 +86,7 @@ fn length_cost(
     e: usize,
     constants: &Constants,
 ) -> f32 {
-    let close = -libm::log(constants.close) as f32;
+    let close = spacing.close;
     let lengths = [e, candidates.twins[e] as usize].map(|e| spacing.lengths[e]);
     let [a, b] = ends.map(|v| spacing.crowding[v]);
     let near = (lengths[0] - (a - close).max(0.0)) + (lengths[1] - (b - close).max(0.0));

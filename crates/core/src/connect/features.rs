@@ -132,7 +132,7 @@ impl<'a> Surroundings<'a> {
     pub fn turn(&self, v: u32) -> f64 {
         let Found { candidates, turns, selection, .. } = self.found;
         let pair = selection.pair(candidates, v as usize);
-        pair.map_or(0.0, |pair| f64::from(turns.of(v as usize, pair).powi(2)))
+        pair.map_or(0.0, |pair| f64::from(turns.of(pair).powi(2)))
     }
 
     /// The least margin of the other edges at a vertex.

@@ -2,7 +2,7 @@
 
 use super::candidates::Candidates;
 use super::constants::{Constants, HOPELESS, SWEEPS};
-use super::costs::{Costs, first_edge_costs};
+use super::costs::{Costs, first_edge_cost};
 use super::decode::decode;
 use super::gaps::Gaps;
 use super::geometry::{Spacing, Turns};
@@ -76,6 +76,7 @@ pub fn converge<'a>(
     };
     let (_, _, first) = round(SWEEPS[0], &Roughness::default())?;
     let mut rough = Roughness::new(&candidates, &spacing, &turns, &first, constants);
+    drop(first);
     if known.closed {
         // A gap is no end where there are none.
         rough.gaps = Gaps::default();
@@ -91,12 +92,12 @@ fn hope(
     known: &Known,
     constants: &Constants,
 ) -> Vec<bool> {
-    let costs = first_edge_costs(candidates, spacing, constants);
     let most = if known.is_costly() { f32::INFINITY } else { HOPELESS };
     candidates.map(false, |v, own| {
         for ((own, e), &end) in own.iter_mut().zip(candidates.from(v)).zip(candidates.neighbors(v))
         {
-            let allowed = costs[e] <= most && known.allows(spacing, v, end);
+            let cost = first_edge_cost(candidates, spacing, v, e, constants);
+            let allowed = cost <= most && known.allows(spacing, v, end);
             *own = allowed || candidates.is_kept(e);
         }
     })

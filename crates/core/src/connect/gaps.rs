@@ -79,7 +79,7 @@ fn may_begin(
     constants: &Constants,
 ) -> bool {
     selection.pair(candidates, v).is_some_and(|pair| {
-        let [a, b] = pair.map(|k| spacing.lengths[candidates.from(v).start + k]);
+        let [a, b] = pair.map(|e| spacing.lengths[e]);
         (a - b).abs() > constants.gap_free as f32
     })
 }

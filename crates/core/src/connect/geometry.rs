@@ -2,12 +2,11 @@
 //!
 //! Ratios of lengths only, so that the scale does not matter; differences of coordinates only, so that the place does not.
 
-use super::approximation::{half_turns, log};
-use super::candidates::{Candidates, GRAIN, by_vertex, each};
+use super::approximation::{HALF_TURN, direction, log};
+use super::candidates::{Candidates, by_vertex};
 use super::constants::{Constants, SPACING_RINGS};
 use super::rings::ring_median;
 use crate::delaunay::Delaunay;
-use crate::parts::split;
 use crate::point::{Point, length, sub};
 
 /// The distances between candidates' ends.
@@ -20,6 +19,8 @@ pub struct Spacing<'a> {
     pub lengths: Vec<f32>,
     /// For each vertex: the logarithm of the spacing around it over the distance to its nearest neighbor.
     pub crowding: Vec<f32>,
+    /// That of the spacing over the least distance that sets the scale.
+    pub close: f32,
 }
 
 impl<'a> Spacing<'a> {
@@ -46,7 +47,8 @@ impl<'a> Spacing<'a> {
         let crowding = by_vertex(vertices, |v| {
             if nearest[v].is_finite() { log(spacing[v] / nearest[v]) as f32 } else { 0.0 }
         });
-        Self { points: delaunay.points(), nearest, lengths, crowding }
+        let close = -libm::log(constants.close) as f32;
+        Self { points: delaunay.points(), nearest, lengths, crowding, close }
     }
 
     /// The spacing around a vertex.
@@ -78,62 +80,39 @@ fn second_least(values: &[f32]) -> f32 {
     least[1]
 }
 
-/// For each pair i < j of paired half-edges at a vertex, by j, then by i, vertex after vertex: how far one turns from the other.
+/// How far one half-edge turns from another.
 #[derive(Debug, Default)]
 pub struct Turns {
-    /// The square roots of the turns in half turns; 0 is straight.
-    roots: Vec<f32>,
-    /// Where the pairs of each vertex start.
-    starts: Vec<usize>,
+    /// Where each half-edge leads, in 2⁻³² turns.
+    pub directions: Vec<u32>,
 }
 
 impl Turns {
-    /// Measure the pairs. Linear.
+    /// Measure the candidates. Linear.
     #[must_use]
     pub fn new(delaunay: &Delaunay, candidates: &Candidates) -> Self {
-        let vertices = candidates.vertices();
-        let mut starts = vec![0; vertices + 1];
-        for v in 0..vertices {
-            let count = candidates.pairs(v);
-            starts[v + 1] = starts[v] + count * count.saturating_sub(1) / 2;
-        }
-        let mut roots = vec![0.0; starts[vertices]];
-        let grain = |k: usize| starts[((k + 1) * GRAIN).min(vertices)] - starts[k * GRAIN];
-        let parts = split(&mut roots, (0..vertices.div_ceil(GRAIN)).map(grain));
-        each(parts, |(k, part)| {
-            let mut next = part.iter_mut();
-            for v in k * GRAIN..((k + 1) * GRAIN).min(vertices) {
-                let ends = &candidates.neighbors(v)[..candidates.pairs(v)];
-                for (j, &b) in ends.iter().enumerate() {
-                    let w = vector(delaunay, v, b);
-                    // The ends first: an iterator zipped ahead of them would lose one of its own.
-                    for (&a, root) in ends[..j].iter().zip(&mut next) {
-                        *root = root_turn(vector(delaunay, v, a), w);
-                    }
-                }
+        let directions = candidates.map(0, |v, own| {
+            for (own, &end) in own.iter_mut().zip(candidates.neighbors(v)) {
+                *own = direction(vector(delaunay, v, end));
             }
         });
-        Self { roots, starts }
+        Self { directions }
     }
 
-    /// Those of all pairs at `v`.
+    /// That of a path along two half-edges of one vertex: the square root of the turn in half turns; 0 is straight.
     #[inline]
     #[must_use]
-    pub fn at(&self, v: usize) -> &[f32] {
-        &self.roots[self.starts[v]..self.starts[v + 1]]
-    }
-
-    /// That of the pair of half-edges number i and j at `v`.
-    #[inline]
-    #[must_use]
-    pub fn of(&self, v: usize, [i, j]: [usize; 2]) -> f32 {
-        let (i, j) = (i.min(j), i.max(j));
-        self.at(v)[j * (j - 1) / 2 + i]
+    pub fn of(&self, edges: [usize; 2]) -> f32 {
+        let [a, b] = edges.map(|e| self.directions[e]);
+        root_turn(a, b ^ HALF_TURN)
     }
 }
 
-/// The square root of the turn of a path that comes against `u` and leaves along `w`, in half turns.
-fn root_turn(u: Point, w: Point) -> f32 {
-    let opposite = [-w[0], -w[1]];
-    half_turns(u, opposite).sqrt() as f32
+/// The square root of the turn from the opposite of one direction to another, in half turns.
+#[inline]
+#[must_use]
+pub fn root_turn(direction: u32, opposite: u32) -> f32 {
+    const UNIT: f32 = 1.0 / HALF_TURN as f32;
+    let turn = direction.wrapping_sub(opposite) as i32;
+    ((turn as f32).abs() * UNIT).sqrt()
 }

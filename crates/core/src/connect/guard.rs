@@ -1,14 +1,14 @@
 //! Where the theorem holds, the crust is right: rings of it that are sampled densely enough are taken as they are.
 
 use super::constants::{MARGIN, PROVEN};
+use crate::adjacency::{Incidence, vertices_of_rows};
 use crate::certify::measure;
 use crate::delaunay::Delaunay;
 use crate::edges::Edges;
 use crate::error::Result;
 use crate::interpolant::Interpolant;
-use crate::point::{Point, dot, length, sub};
+use crate::point::{dot, length, sub};
 use crate::progress::Progress;
-use crate::trace::{Curves, trace};
 use std::collections::HashSet;
 
 /// Put the rings of the crust that the theorem covers and that one may take into `edges`, which are canonical.
@@ -27,16 +27,9 @@ pub fn guard(
     if *crust == edges {
         return Ok(edges);
     }
-    let mut points = vec![[f64::NAN; 2]; delaunay.input_len()];
-    for (v, &row) in delaunay.rows().iter().enumerate() {
-        points[row as usize] = delaunay.points()[v];
-    }
-    let lost = without(crust, &edges);
-    let curves = trace(&points, crust, progress)?;
-    let rings: Vec<&[u32]> = rings(&curves)
-        .filter(|ring| sides(ring).any(|side| lost.contains(&side)) && is_smooth(&points, ring))
-        .filter(|ring| may_take(ring))
-        .collect();
+    let mut rings = smooth_rings(delaunay, crust, &edges);
+    rings.retain(|ring| may_take(ring));
+    progress.advance(0)?;
     if rings.is_empty() {
         return Ok(edges);
     }
@@ -46,13 +39,8 @@ pub fn guard(
         let number = crust.binary_search(&side).expect("rings of the crust are made of its edges");
         (1.0 + MARGIN) * ratios[number] < PROVEN
     };
-    let proven: Vec<&[u32]> = rings.into_iter().filter(|ring| sides(ring).all(is_proven)).collect();
-    Ok(replace(edges, &proven))
-}
-
-fn rings(curves: &Curves) -> impl Iterator<Item = &[u32]> {
-    let ring = |k: usize| &curves.indices[curves.offsets[k]..curves.offsets[k + 1]];
-    (0..curves.closed.len()).filter(|&k| curves.closed[k]).map(ring)
+    rings.retain(|ring| sides(ring).all(is_proven));
+    Ok(replace(edges, &rings))
 }
 
 /// The edges of a ring, smaller row first.
@@ -61,25 +49,74 @@ fn sides(ring: &[u32]) -> impl Iterator<Item = [u32; 2]> {
     ring.iter().zip(next).map(|(&a, &b)| [a.min(b), a.max(b)])
 }
 
-/// Does the ring turn nowhere by more than samples of a smooth curve that the theorem covers can (Lemma 10)?
-fn is_smooth(points: &[Point], ring: &[u32]) -> bool {
-    // 4 arcsin(r / 2), and some more for rounding.
-    let least = libm::cos(4.0 * libm::asin(PROVEN / 2.0)) - 1e-9;
-    let count = ring.len();
-    let at = |k: usize| points[ring[k % count] as usize];
-    (0..count).all(|k| {
-        let (u, w) = (sub(at(k + 1), at(k)), sub(at(k + 2), at(k + 1)));
-        dot(u, w) >= least * length(u) * length(w)
-    })
+/// The rings of the crust that are not in `edges` and turn nowhere by more than samples of a smooth curve that the theorem
+/// covers can (Lemma 10). Linear.
+fn smooth_rings(delaunay: &Delaunay, crust: &Edges, edges: &Edges) -> Vec<Vec<u32>> {
+    let walk = Walk {
+        delaunay,
+        crust,
+        graph: Incidence::new(crust, delaunay.input_len()),
+        vertices: vertices_of_rows(delaunay),
+        // 4 arcsin(r / 2), and some more for rounding.
+        least: libm::cos(4.0 * libm::asin(PROVEN / 2.0)) - 1e-9,
+    };
+    let mut seen = vec![false; crust.len()];
+    // Both are sorted.
+    let mut others = edges.iter().peekable();
+    let mut rings = Vec::new();
+    for (number, edge) in crust.iter().enumerate() {
+        while others.next_if(|&other| other < edge).is_some() {}
+        if others.peek() != Some(&edge) && !seen[number] {
+            rings.extend(walk.ring(number, &mut seen));
+        }
+    }
+    rings
 }
 
-/// Those of the sorted `edges` that are not among the sorted `others`.
-fn without(edges: &Edges, others: &Edges) -> HashSet<[u32; 2]> {
-    edges.iter().filter(|edge| others.binary_search(edge).is_err()).copied().collect()
+/// What walks along the crust need.
+struct Walk<'a> {
+    delaunay: &'a Delaunay,
+    crust: &'a Edges,
+    graph: Incidence,
+    /// The vertex of each row.
+    vertices: Vec<u32>,
+    /// The least cosine of a turn.
+    least: f64,
+}
+
+impl Walk<'_> {
+    /// The rows of the ring that edge `number` is part of, if it is, that is smooth, and no walk was there before.
+    fn ring(&self, number: usize, seen: &mut [bool]) -> Option<Vec<u32>> {
+        let [start, first] = self.crust[number];
+        let (mut ring, mut at, mut came) = (vec![start], first, number as u32);
+        loop {
+            if std::mem::replace(&mut seen[came as usize], true) {
+                return None;
+            }
+            let before = ring[ring.len() - 1];
+            let &[a, b] = self.graph.of(at) else { return None };
+            let (next, edge) = if a.1 == came { b } else { a };
+            if !self.is_smooth([before, at, next]) {
+                return None;
+            }
+            if at == start {
+                return Some(ring);
+            }
+            ring.push(at);
+            (at, came) = (next, edge);
+        }
+    }
+
+    /// Does a path by three rows turn by little enough?
+    fn is_smooth(&self, rows: [u32; 3]) -> bool {
+        let [a, b, c] = rows.map(|row| self.delaunay.point(self.vertices[row as usize]));
+        let (u, w) = (sub(b, a), sub(c, b));
+        dot(u, w) >= self.least * length(u) * length(w)
+    }
 }
 
 /// Take the rings in, and out whatever else touches them.
-fn replace(mut edges: Edges, rings: &[&[u32]]) -> Edges {
+fn replace(mut edges: Edges, rings: &[Vec<u32>]) -> Edges {
     let touched: HashSet<u32> = rings.iter().flat_map(|ring| ring.iter().copied()).collect();
     edges.retain(|edge| !edge.iter().any(|row| touched.contains(row)));
     edges.extend(rings.iter().flat_map(|ring| sides(ring)));

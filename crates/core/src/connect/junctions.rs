@@ -172,12 +172,8 @@ fn bend(found: &Found<'_>, selection: &Selection, new: usize, old: usize) -> f32
 /// What a path along two half-edges at `v` costs there, if they form a pair.
 fn pass(found: &Found<'_>, v: usize, edges: [usize; 2]) -> Option<f32> {
     let Found { candidates, turns, spacing, costs, .. } = found;
-    let pair = edges.map(|e| e - candidates.from(v).start);
-    let is_paired = pair.iter().all(|&k| k < candidates.pairs(v));
-    is_paired.then(|| {
-        let turn = turns.of(v, pair);
-        costs.pair(v, turn, edges.map(|e| spacing.lengths[e]))
-    })
+    let is_paired = edges.iter().all(|&e| candidates.is_paired(v, e));
+    is_paired.then(|| costs.pair(v, turns.of(edges), edges.map(|e| spacing.lengths[e])))
 }
 
 /// Is `end` the point to which `own` leads, or the one after it?

@@ -3,10 +3,11 @@
 //! The message of a vertex to an edge is what the edge costs at that vertex beyond its absence, all else at its best
 //! (J. Pearl, "Probabilistic Reasoning in Intelligent Systems", 1988). All are sent at once, and damped.
 
+use super::approximation::HALF_TURN;
 use super::candidates::{Candidates, GRAIN, each};
 use super::constants::{CONVERGED, DAMPING, MOST_PAIRED};
 use super::costs::Costs;
-use super::geometry::{Spacing, Turns};
+use super::geometry::{Spacing, Turns, root_turn};
 use crate::error::Result;
 use crate::parts::split;
 use crate::progress::Progress;
@@ -66,7 +67,7 @@ impl Factors<'_> {
 
     /// Write the messages of part `k`: new ones of its active vertices, which are not active any more.
     fn write(&self, k: usize, sweep: &Sweep<'_>, fresh: &mut [f32]) {
-        let mut work = Work::new();
+        let mut work = Work::default();
         let vertices = k * GRAIN..((k + 1) * GRAIN).min(self.candidates.vertices());
         let first = self.candidates.from(vertices.start).start;
         fresh.copy_from_slice(&sweep.sent[first..first + fresh.len()]);
@@ -107,10 +108,19 @@ impl Factors<'_> {
         let edges = &costs.edges[range.clone()];
         work.incoming
             .extend(edges.iter().zip(twins).map(|(cost, &twin)| cost + sent[twin as usize]));
-        let pairs = candidates.pairs(v);
-        let lengths = &spacing.lengths[range.start..range.start + pairs];
-        work.pair_up(turns.at(v), lengths, [costs.turns[v], costs.steps[v]]);
-        work.answer(costs.ends[v], costs.alone[v]);
+        let paired = range.start..range.start + candidates.pairs(v);
+        let edges = Paired {
+            directions: &turns.directions[paired.clone()],
+            lengths: &spacing.lengths[paired],
+            turn: costs.turns[v],
+            step: costs.steps[v],
+        };
+        let prices = [costs.ends[v], costs.alone[v]];
+        match edges.lengths.len() {
+            0..=4 => work.answer(&Pairs::<4>::new(&edges, &work.incoming), prices),
+            5..=8 => work.answer(&Pairs::<8>::new(&edges, &work.incoming), prices),
+            _ => work.answer(&Pairs::<MOST_LANES>::new(&edges, &work.incoming), prices),
+        }
     }
 
     /// The belief in each edge, by half-edge: what it costs beyond its absence, all else at its best.
@@ -157,92 +167,128 @@ fn least(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
-/// Numbers i < j of edges that form pairs, by j, then by i.
-const PAIRS: [[u8; 2]; MOST_PAIRS] = {
-    let mut pairs = [[0; 2]; MOST_PAIRS];
-    let (mut next, mut j) = (0, 1);
-    while j < MOST_PAIRED {
-        let mut i = 0;
-        while i < j {
-            pairs[next] = [i as u8, j as u8];
-            (next, i) = (next + 1, i + 1);
+/// The edges at a vertex that form pairs, and the weights of their turns and of their steps.
+struct Paired<'a> {
+    directions: &'a [u32],
+    lengths: &'a [f32],
+    turn: f32,
+    step: f32,
+}
+
+/// What the edges at a vertex cost by two: a lane for each that forms pairs, and some empty ones, so that a row is a vector or
+/// two of the processor's.
+struct Pairs<const N: usize> {
+    /// How many edges form pairs.
+    count: usize,
+    /// In row j, lane i: what edge j costs beside edge i, at the vertex and as seen from its own other end.
+    rows: [[f32; N]; N],
+    /// By lane: the least of its rows.
+    beside: [f32; N],
+    /// By lane: what the edge costs as seen from its other end.
+    seen: [f32; N],
+}
+
+/// The fewest lanes that hold all edges that form pairs.
+const MOST_LANES: usize = MOST_PAIRED.next_multiple_of(4);
+
+impl<const N: usize> Pairs<N> {
+    /// In row j, lane i: what keeps an edge from being a pair with itself.
+    const SELF: [[f32; N]; N] = {
+        let mut rows = [[0.0; N]; N];
+        let mut k = 0;
+        while k < N {
+            rows[k][k] = f32::INFINITY;
+            k += 1;
         }
-        j += 1;
+        rows
+    };
+
+    #[inline]
+    fn new(edges: &Paired<'_>, incoming: &[f32]) -> Self {
+        let count = edges.lengths.len();
+        let seen = padded(&incoming[..count], f32::INFINITY);
+        let directions: [u32; N] = padded(edges.directions, 0);
+        let lengths: [f32; N] = padded(edges.lengths, 0.0);
+        let mut own = Self { count, rows: [[0.0; N]; N], beside: [f32::INFINITY; N], seen };
+        for j in 0..count {
+            let opposite = directions[j] ^ HALF_TURN;
+            for i in 0..N {
+                let turn = edges.turn * root_turn(directions[i], opposite);
+                let step = edges.step * (lengths[i] - lengths[j]).abs();
+                let cost = turn + step + (seen[j] + Self::SELF[j][i]);
+                own.rows[j][i] = cost;
+                own.beside[i] = least(own.beside[i], cost);
+            }
+        }
+        own
     }
-    pairs
-};
-/// For each edge what a pair that it is in is to cost beside: infinity, so that it is out.
-const OUT: [[f32; MOST_PAIRS]; MOST_PAIRED] = {
-    let mut out = [[0.0; MOST_PAIRS]; MOST_PAIRED];
-    let mut next = 0;
-    while next < MOST_PAIRS {
-        let [i, j] = PAIRS[next];
-        out[i as usize][next] = f32::INFINITY;
-        out[j as usize][next] = f32::INFINITY;
-        next += 1;
+
+    /// What the cheapest pair costs, and its lanes.
+    #[inline]
+    fn best(&self) -> (f32, [usize; 2]) {
+        let sums = sums(&self.seen, &self.beside);
+        let best = sums.iter().copied().fold(f32::INFINITY, least);
+        let i = sums.iter().position(|&sum| sum == best).unwrap_or_default();
+        let j = self.rows[..self.count].iter().position(|row| row[i] == self.beside[i]);
+        (best, [i, j.unwrap_or_default()])
     }
-    out
-};
-const MOST_PAIRS: usize = MOST_PAIRED * (MOST_PAIRED - 1) / 2;
+
+    /// What the cheapest pair without lane `k` costs.
+    #[inline]
+    fn without(&self, k: usize) -> f32 {
+        let mut beside = Self::SELF[k];
+        let mut rest = [f32::INFINITY; N];
+        for row in self.rows[..k].iter().chain(&self.rows[k + 1..self.count]) {
+            for (rest, &cost) in rest.iter_mut().zip(row) {
+                *rest = least(*rest, cost);
+            }
+        }
+        for (beside, rest) in beside.iter_mut().zip(rest) {
+            *beside += rest;
+        }
+        sums(&self.seen, &beside).into_iter().fold(f32::INFINITY, least)
+    }
+}
+
+fn sums<const N: usize>(a: &[f32; N], b: &[f32; N]) -> [f32; N] {
+    std::array::from_fn(|k| a[k] + b[k])
+}
+
+/// Some values, and `empty` in further lanes.
+fn padded<T: Copy, const N: usize>(values: &[T], empty: T) -> [T; N] {
+    let mut lanes = [empty; N];
+    lanes[..values.len()].copy_from_slice(values);
+    lanes
+}
 
 /// The memory of one task.
+#[derive(Default)]
 struct Work {
     /// What each edge costs as seen from its other end.
     incoming: Vec<f32>,
-    /// For each edge that forms pairs: the least cost of a second one beside it.
-    beside: [f32; MOST_PAIRED],
-    /// What each pair costs, at the vertex and as seen from both other ends.
-    both: [f32; MOST_PAIRS],
-    /// How many edges form pairs.
-    count: usize,
     /// The answers.
     messages: Vec<f32>,
 }
 
 impl Work {
-    fn new() -> Self {
-        let (beside, both) = ([f32::INFINITY; MOST_PAIRED], [f32::INFINITY; MOST_PAIRS]);
-        Self { incoming: Vec::new(), beside, both, count: 0, messages: Vec::new() }
-    }
-
-    /// Meet all pairs of the edges of these lengths, given their turns and the weights of turns and of steps.
-    fn pair_up(&mut self, turns: &[f32], lengths: &[f32], [turn, step]: [f32; 2]) {
-        self.count = lengths.len();
-        self.beside = [f32::INFINITY; MOST_PAIRED];
-        let mut start = 0;
-        for j in 1..self.count {
-            let (length, other, mut least_beside) = (lengths[j], self.incoming[j], f32::INFINITY);
-            let pairs = turns[start..start + j].iter().zip(&mut self.both[start..start + j]);
-            let firsts = lengths[..j].iter().zip(&self.incoming[..j]).zip(&mut self.beside[..j]);
-            for ((&root, both), ((&own, &seen), beside)) in pairs.zip(firsts) {
-                let cost = turn * root + step * (own - length).abs();
-                *beside = least(*beside, cost + other);
-                least_beside = least(least_beside, cost + seen);
-                *both = cost + (seen + other);
-            }
-            self.beside[j] = least_beside;
-            start += j;
-        }
-    }
-
-    /// On less off, for each edge.
-    fn answer(&mut self, end: f32, alone: f32) {
+    /// On less off, for each edge, given what an end costs and the point alone.
+    #[inline]
+    fn answer<const N: usize>(&mut self, pairs: &Pairs<N>, [end, alone]: [f32; 2]) {
         let mut single = Least::NONE;
         for (k, &cost) in self.incoming.iter().enumerate() {
             single.meet(cost, k);
         }
-        let both = &self.both[..self.count * self.count.saturating_sub(1) / 2];
-        let best = both.iter().copied().fold(f32::INFINITY, least);
-        let pair = both.iter().position(|&cost| cost == best).map_or([u8::MAX; 2], |k| PAIRS[k]);
-        let without = |k: usize| {
-            let others = both.iter().zip(&OUT[k]).map(|(cost, out)| cost + out);
-            others.fold(f32::INFINITY, least)
+        let (best, lanes) = pairs.best();
+        let message = |k: usize, pair: f32| {
+            let on = if k < pairs.count { least(end, pairs.beside[k]) } else { end };
+            on - least(least(alone, end + single.without(k)), pair)
         };
         self.messages.clear();
-        for k in 0..self.incoming.len() {
-            let on = if k < self.count { least(end, self.beside[k]) } else { end };
-            let pair = if pair.contains(&(k as u8)) && k < self.count { without(k) } else { best };
-            self.messages.push(on - least(least(alone, end + single.without(k)), pair));
+        self.messages.extend((0..self.incoming.len()).map(|k| message(k, best)));
+        if pairs.count > 1 {
+            for k in lanes {
+                self.messages[k] = message(k, pairs.without(k));
+            }
         }
     }
 }

@@ -16,14 +16,20 @@ pub fn prune(factors: &Factors<'_>, constants: &Constants, selection: &mut Selec
         return;
     }
     let apart = median(&mut distances).unwrap_or_default();
-    let (outliers, curves): (Vec<_>, Vec<_>) = components(factors, selection)
-        .into_iter()
-        .partition(|component| is_outlier(factors, selection, component, apart, constants));
+    let (mut few, mut many, mut points) = (Vec::new(), Vec::new(), 0);
+    each_component(factors, selection, |own| {
+        if !is_outlier(factors, selection, own, apart, constants) {
+            points += own.len();
+        } else if own.len() < FEWEST {
+            few.extend_from_slice(own);
+        } else {
+            many.extend_from_slice(own);
+        }
+    });
+    drop_edges(factors, selection, &few);
     // Where most points would go there is no curve for them to be out of: noise, a cloud.
-    let points = |of: &[Vec<usize>]| of.iter().map(Vec::len).sum::<usize>();
-    let is_noise = points(&outliers) > points(&curves);
-    for component in outliers.iter().filter(|own| own.len() < FEWEST || !is_noise) {
-        drop_edges(factors, selection, component);
+    if few.len() + many.len() <= points {
+        drop_edges(factors, selection, &many);
     }
 }
 
@@ -50,36 +56,35 @@ pub fn drop_small(factors: &Factors<'_>, fewest: usize, selection: &mut Selectio
 
 /// The components that have edges, each as its vertices.
 pub fn components(factors: &Factors<'_>, selection: &Selection) -> Vec<Vec<usize>> {
-    let mut seen = vec![false; factors.candidates.vertices()];
     let mut components = Vec::new();
-    for v in 0..seen.len() {
-        if selection.degrees[v] > 0 && !seen[v] {
-            components.push(component(factors, selection, v, &mut seen));
-        }
-    }
+    each_component(factors, selection, |own| components.push(own.to_vec()));
     components
 }
 
-fn component(
-    factors: &Factors<'_>,
-    selection: &Selection,
-    start: usize,
-    seen: &mut [bool],
-) -> Vec<usize> {
-    let mut found = vec![start];
-    seen[start] = true;
-    let mut next = 0;
-    while let Some(&v) = found.get(next) {
-        next += 1;
-        for e in selection.from(factors.candidates, v) {
-            let end = factors.candidates.ends[e] as usize;
-            if !seen[end] {
-                seen[end] = true;
-                found.push(end);
+/// Show the components that have edges, each as its vertices.
+fn each_component(factors: &Factors<'_>, selection: &Selection, mut show: impl FnMut(&[usize])) {
+    let mut seen = vec![false; factors.candidates.vertices()];
+    let mut found = Vec::new();
+    for start in 0..seen.len() {
+        if selection.degrees[start] == 0 || seen[start] {
+            continue;
+        }
+        seen[start] = true;
+        found.clear();
+        found.push(start);
+        let mut next = 0;
+        while let Some(&v) = found.get(next) {
+            next += 1;
+            for e in selection.from(factors.candidates, v) {
+                let end = factors.candidates.ends[e] as usize;
+                if !seen[end] {
+                    seen[end] = true;
+                    found.push(end);
+                }
             }
         }
+        show(&found);
     }
-    found
 }
 
 /// Has a component an edge to keep?
@@ -110,9 +115,9 @@ fn is_outlier(
             steps.push(spacing.distance(v, candidates.ends[e] as usize));
         }
         if let Some(pair) = selection.pair(candidates, v) {
-            let [a, b] = pair.map(|k| spacing.lengths[candidates.from(v).start + k]);
+            let [a, b] = pair.map(|e| spacing.lengths[e]);
             changes.push(f64::from((a - b).abs()));
-            bends.push(f64::from(turns.of(v, pair)));
+            bends.push(f64::from(turns.of(pair)));
         }
     }
     let [step, change, bend] =

@@ -33,18 +33,18 @@ impl Roughness {
         selection: &Selection,
         constants: &Constants,
     ) -> Self {
-        let smooth = |value: &(dyn Fn(usize, [usize; 2]) -> f32 + Sync)| {
+        let smooth = |value: &(dyn Fn([usize; 2]) -> f32 + Sync)| {
             let mut values = by_vertex(candidates.vertices(), |v| {
-                selection.pair(candidates, v).map_or(f64::NAN, |pair| f64::from(value(v, pair)))
+                selection.pair(candidates, v).map_or(f64::NAN, |pair| f64::from(value(pair)))
             });
             for _ in 0..ROUGHNESS_RINGS {
                 values = ring_median(candidates, &values, |_, _| true);
             }
             values
         };
-        let turn = |v: usize, pair: [usize; 2]| turns.of(v, pair).powi(2);
-        let step = |v: usize, pair: [usize; 2]| {
-            let [a, b] = pair.map(|k| spacing.lengths[candidates.from(v).start + k]);
+        let turn = |pair: [usize; 2]| turns.of(pair).powi(2);
+        let step = |pair: [usize; 2]| {
+            let [a, b] = pair.map(|e| spacing.lengths[e]);
             (a - b).abs()
         };
         Self {
@@ -91,11 +91,11 @@ impl Roughness {
 fn most_turn(
     candidates: &Candidates,
     selection: &Selection,
-    turn: impl Fn(usize, [usize; 2]) -> f32,
+    turn: impl Fn([usize; 2]) -> f32,
     constants: &Constants,
 ) -> f64 {
     let mut turns: Vec<f64> = (0..candidates.vertices())
-        .filter_map(|v| selection.pair(candidates, v).map(|pair| f64::from(turn(v, pair))))
+        .filter_map(|v| selection.pair(candidates, v).map(|pair| f64::from(turn(pair))))
         .collect();
     constants.rough_excess * median(&mut turns).unwrap_or_default() + constants.rough_least
 }

@@ -47,15 +47,14 @@ impl Selection {
         self.from(candidates, candidates.ends[e] as usize).find(|&next| next != back)
     }
 
-    /// The two half-edges chosen at `v`, counted from its first, if there are two and they form a pair.
+    /// The two half-edges chosen at `v`, if there are two and they form a pair.
     #[must_use]
     pub fn pair(&self, candidates: &Candidates, v: usize) -> Option<[usize; 2]> {
         if self.degrees[v] != 2 {
             return None;
         }
-        let first = candidates.from(v).start;
-        let mut found = self.from(candidates, v).map(|e| e - first);
+        let mut found = self.from(candidates, v);
         let pair = [found.next()?, found.next()?];
-        (pair[1] < candidates.pairs(v)).then_some(pair)
+        candidates.is_paired(v, pair[1]).then_some(pair)
     }
 }
