@@ -165,6 +165,14 @@ def test_samples_that_thin_out_gradually_are_no_outliers() -> None:
     assert shape(np.stack([x, x**2 / x[-1] / 4], axis=1)) == [("line", len(x))]
 
 
+@pytest.mark.parametrize("count", [40, 60])
+def test_an_open_curve_that_thins_out_keeps_its_last_sample(count: int) -> None:
+    places = np.tan(np.linspace(0, np.pi / 2 - 0.1, count))
+    angle = 0.9 * places / places[-1]
+    arc = np.stack([np.sin(angle), 1 - np.cos(angle)], axis=1)
+    assert shape(arc) == [("line", count)]
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_samples_left_out_at_random_leave_no_gap(seed: int) -> None:
     angle = 2 * np.pi * np.arange(300) / 300

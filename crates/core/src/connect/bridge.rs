@@ -3,7 +3,7 @@
 //! Where samples thin out gradually, each point looks like an outlier to the denser ones; that the steps change little from
 //! each to the next shows only along the curve, and the crust has the curve.
 
-use super::constants::{BRIDGE_TURN, Constants};
+use super::constants::{BRIDGE_STEPS, BRIDGE_TURN, Constants};
 use super::features::half_edge;
 use super::found::Found;
 use super::gaps::{rare_step, steps_around};
@@ -12,7 +12,8 @@ use crate::adjacency::Adjacency;
 use crate::delaunay::Delaunay;
 use crate::edges::Edges;
 
-/// Put in the paths of the crust from free ends to free ends, past isolated points only, that are smooth.
+/// Put in the paths of the crust from free ends to free ends, past isolated points only, that are smooth; and those to isolated
+/// points at which the crust ends, if the steps grow towards them.
 pub fn bridge(
     delaunay: &Delaunay,
     found: &Found<'_>,
@@ -43,7 +44,7 @@ struct Walk<'a> {
 }
 
 impl Walk<'_> {
-    /// The half-edges of the path from a free end to the next, if there is one and it is smooth.
+    /// The half-edges of the path from a free end to the next, or to an end of the crust, if there is one and it is smooth.
     fn from(&self, start: usize) -> Option<Vec<usize>> {
         let candidates = &self.found.candidates;
         if self.found.known.ends_at(start) {
@@ -53,6 +54,9 @@ impl Walk<'_> {
         let (mut came, mut path) = (candidates.twins[own] as usize, Vec::new());
         loop {
             let v = candidates.ends[came] as usize;
+            if self.is_last(v) && self.thins_out(start) {
+                return Some(path);
+            }
             let next = self.next(v, candidates.twins[came] as usize)?;
             if self.selection.chosen[next] {
                 // Past the far end, along its own edge.
@@ -70,6 +74,18 @@ impl Walk<'_> {
             path.push(next);
             came = next;
         }
+    }
+
+    /// Is `v` an isolated point at which a curve of the crust ends?
+    fn is_last(&self, v: usize) -> bool {
+        self.selection.degrees[v] == 0 && self.crust.of(v as u32).len() == 1
+    }
+
+    /// Are the last steps before the free end `v` each longer than the one before? By outliers even samples would go on too.
+    fn thins_out(&self, v: usize) -> bool {
+        let Found { candidates, spacing, .. } = self.found;
+        let steps = steps_around(candidates, spacing, self.selection, v);
+        steps.len() >= BRIDGE_STEPS && steps[..BRIDGE_STEPS].is_sorted_by(|a, b| a > b)
     }
 
     /// The half-edge along which the crust goes on at `v`, where it came by the other one, if it does so smoothly.

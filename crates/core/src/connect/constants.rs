@@ -116,8 +116,10 @@ pub const SWEEPS: [usize; 2] = [5, 8];
 pub const DAMPING: f32 = 0.6;
 /// Messages that change by no more than this have converged; an end costs 1.
 pub const CONVERGED: f32 = 3e-2;
-/// The crust leads over a gap if it turns by no more than this at each point: 60°, in half turns.
-pub const BRIDGE_TURN: f32 = 1.0 / 3.0;
+/// The crust leads over a gap if it turns by no more than this at each point: 75°, in half turns.
+pub const BRIDGE_TURN: f32 = 5.0 / 12.0;
+/// It leads on from a free end to its own end if so many steps before each are longer than the one before.
+pub const BRIDGE_STEPS: usize = 5;
 /// Components of fewer points than this are dropped where points are isolated: outliers pair up.
 pub const FEWEST: usize = 4;
 /// How many isolated points it takes to prune at all.
