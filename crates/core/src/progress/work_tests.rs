@@ -152,3 +152,29 @@ fn nearly_degenerate_points_take_at_most_ten_times_the_work() {
     });
     assert!(late.is_empty(), "{}", late.join("\n"));
 }
+
+/// What the crust does for a point of a well sampled curve.
+const LEAST_CRUST: usize = 130;
+
+/// The farther apart the circles are for their spacing, the less the crust in general position has to do, so this shows at many points.
+#[test]
+fn the_crust_of_many_points_on_concentric_circles_takes_at_most_ten_times_the_work() {
+    const MANY: usize = 30_000;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let work = |d: f64| {
+        let point = |k: usize| circle(k / 2, MANY / 2, 1.0 + d * (k % 2) as f64);
+        let points: Vec<Point> = (0..MANY).map(point).collect();
+        let delaunay = Delaunay::new(&points, &Progress::default()).expect("points");
+        DONE.set(0);
+        methods::crust(&delaunay, &Progress::default()).expect("no one cancels");
+        DONE.get() / MANY + LEAST_CRUST
+    };
+    pool.install(|| {
+        let general = work(1e-2);
+        for d in [1e-10, 1e-8, 1e-6] {
+            let work = work(d);
+            println!("{d:e}: {work} over {general}");
+            assert!(work <= MOST * general, "{d:e}: {work} over {general}");
+        }
+    });
+}
