@@ -281,6 +281,7 @@ def test_a_column_of_well_known_text_gives_its_vertices() -> None:
     assert points.columns["name"].tolist() == ["a", "b", "b"]
     refused("wkt;name\nPOINT (1 2);a\nPOINT (1 b);b\n", ["line 3", "'1 b'"])
     refused("wkt;name\n-9999;a\n1.5;b\n", ["line 2", "-9999"])  # a column of numbers alone
+    refused('x;y\n1,5;",5\n3,";4,5\n', ["line 2", "is not a number"])  # a cell of two lines
     assert read_text("wkt;x;y\nPOINT (9 9);1;2\n").xy.tolist() == [[1, 2]]
 
 

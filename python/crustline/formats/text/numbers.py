@@ -67,8 +67,9 @@ def decimal_mark(cells: Iterable[str]) -> Mark | None:
 def parse_all(cells: Sequence[str], mark: Mark) -> tuple[FloatArray, int | None]:
     """Return numbers, NaN for what is missing, and the position of the first cell that is none."""
     joined = "\n".join(cells)
-    # Python, unlike every file format, reads 1_000 as a number.
-    if "_" not in joined and not (mark == "," and "." in joined):
+    # Python, unlike every file format, reads 1_000 as a number; a quoted cell may hold two lines.
+    plain = "_" not in joined and joined.count("\n") == len(cells) - 1
+    if plain and not (mark == "," and "." in joined):
         usual = joined.translate(_USUAL[mark]).split("\n")
         try:
             return np.array(usual, dtype=np.object_).astype(np.float64), None
