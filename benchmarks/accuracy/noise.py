@@ -203,9 +203,9 @@ def _match(case: NoisyCase, paths: list[Outline], truth: list[Array], answer: li
     taken = set()
     for outline, fine in zip(case.outlines, truth, strict=True):
         gaps = [np.asarray(KDTree(own).query(fine)[0]) for own in answer]
-        shares = [float((gap <= near).mean()) for gap in gaps]
-        best = int(np.argmax(shares))
-        if shares[best] < COVERED or paths[best].closed != outline.closed:
+        # The nearest: within `near`, which may be wider than strands are apart, all cover it.
+        best = int(np.argmin([gap.mean() for gap in gaps]))
+        if (gaps[best] <= near).mean() < COVERED or paths[best].closed != outline.closed:
             return False
         taken.add(best)
     return len(taken) == len(truth)

@@ -199,8 +199,7 @@ def denoise(
         left = delaunay.alike(delaunay.points.xy[rows]) if len(rows) >= ROWS else None
     if left is not None:
         known = None if given is None else given[rows]
-        ridge = _core.ridge(left._core, known, *left._how)
-        parts += [part.of_rows(rows) for part in strands(left, ridge, method)]
+        parts += [part.of_rows(rows) for part in strands(left, known, method)]
     return _assembled(delaunay.points, parts)
 
 

@@ -43,11 +43,20 @@ class Fit:
     """The standard deviation of each node across the curve."""
 
 
-def fit(points: FloatArray, noise: FloatArray, start: Polygon, rounds: int = 6) -> Fit:
-    """Return the smooth curve near `start` that explains the points, each with its own noise."""
-    polygon, weights = start, noise**-2.0
+def fit(
+    points: FloatArray,
+    noise: FloatArray,
+    start: Polygon,
+    rounds: int = 6,
+    shares: FloatArray | None = None,
+) -> Fit:
+    """Return the smooth curve near `start` that explains the points, each with its own noise.
+
+    Where `shares` are given, points belong to it by so much each, from 0 to 1.
+    """
+    polygon, shares = start, np.ones(len(points)) if shares is None else shares
     for k in range(rounds):
-        step = _Step(polygon, polygon.feet(points), weights)
+        step = _Step(polygon, polygon.feet(points), noise**-2.0, shares)
         if k < 2:
             exponent = step.likeliest(WIDE)
         if k > 0:
@@ -63,7 +72,9 @@ def fit(points: FloatArray, noise: FloatArray, start: Polygon, rounds: int = 6) 
 class _Step:
     """The linear problem about a polygon: how far each node moves along its normal."""
 
-    def __init__(self, polygon: Polygon, feet: Feet, weights: FloatArray) -> None:
+    def __init__(
+        self, polygon: Polygon, feet: Feet, weights: FloatArray, shares: FloatArray
+    ) -> None:
         self.count, self.closed = len(polygon), polygon.closed
         closed = polygon.closed
         self.band = 7 if closed else 3
@@ -73,7 +84,8 @@ class _Step:
         self.place = np.where(k < half, 2 * k, 2 * (self.count - 1 - k) + 1) if closed else k
         # Points beyond an end say nothing about it, but where there are hardly others.
         on = ~feet.beyond if (~feet.beyond).sum() > FREE else np.ones(len(weights), bool)
-        self.weights, self.offset = weights[on], feet.offset[on]
+        self.weights, self.offset = (shares * weights)[on], feet.offset[on]
+        self.free = max(float(shares[on].sum()) - FREE, 1.0)
         edge, share = feet.edge[on], feet.share[on]
         self.ends = np.column_stack((edge, (edge + 1) % self.count))
         self.shares = np.column_stack((1 - share, share))
@@ -154,14 +166,13 @@ class _Step:
         except np.linalg.LinAlgError:
             return float("inf")
         squares = self._squares(exponent, self.move(exponent, factor))
-        free = max(len(self.offset) - FREE, 1)
         determinant = 2 * np.log(factor[0]).sum() - (self.count - FREE) * np.log(10.0) * exponent
-        return float(free * np.log(max(squares, np.finfo(float).tiny)) + determinant)
+        return float(self.free * np.log(max(squares, np.finfo(float).tiny)) + determinant)
 
     def deviation(self, exponent: float) -> float:
         """Return the deviation of the points, as a multiple of their noise."""
         squares = self._squares(exponent, self.move(exponent))
-        return float(np.sqrt(squares / max(len(self.offset) - FREE, 1)))
+        return float(np.sqrt(squares / self.free))
 
     def uncertainty(self, exponent: float) -> FloatArray:
         """Return the standard deviations of the nodes for points whose noise is as they say.

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from crustline import _core
 from crustline.arrays import BoolArray, FloatArray, IntArray
 from crustline.curves import trace
 from crustline.delaunay import Delaunay
+from crustline.denoise.mixture import pair
 from crustline.denoise.polygon import Feet, Polygon
-from crustline.denoise.smoother import fit
+from crustline.denoise.smoother import Fit, fit
 
 #: Points of a ridge, and rows, that a strand has at least, but where nothing has moved.
 CRESTS, ROWS = 4, 8
@@ -65,13 +66,15 @@ class _Ridge:
     at: FloatArray
     still: BoolArray
     """Whether a point of the ridge is where it was."""
+    known: bool
+    """Whether the noise was given."""
 
 
 def strands(
-    delaunay: Delaunay, found: tuple[Any, ...], method: Callable[..., ArrayLike]
+    delaunay: Delaunay, noise: FloatArray | None, method: Callable[..., ArrayLike]
 ) -> list[Strand]:
-    """Return the strands of a ridge that the core found."""
-    ridge = _of_rows(delaunay, found)
+    """Return the strands of the ridge of points, whose noise is estimated or known."""
+    ridge = _ridge(delaunay, noise)
     if len(ridge.at) < 2:
         return []
     curves = trace(ridge.at, method(delaunay.alike(ridge.at)))
@@ -84,14 +87,12 @@ def strands(
     owner = _owners(delaunay.points.xy, starts, ridge)
     made = []
     for number, ((crests, _), start) in enumerate(zip(parts, starts, strict=True)):
-        made.append(
-            _strand(delaunay.points.xy, ridge, crests, start, np.flatnonzero(owner == number))
-        )
-    return [strand for strand in made if strand is not None]
+        made += _strands(delaunay.points.xy, ridge, crests, start, np.flatnonzero(owner == number))
+    return made
 
 
-def _of_rows(delaunay: Delaunay, found: tuple[Any, ...]) -> _Ridge:
-    first_rows, noise, first, vertices, at = found
+def _ridge(delaunay: Delaunay, known: FloatArray | None) -> _Ridge:
+    first_rows, noise, first, vertices, at = _core.ridge(delaunay._core, known, *delaunay._how)
     count = len(delaunay)
     by_row = np.full((2, count), np.nan)
     by_row[:, first_rows] = noise, np.maximum(first, 1.5 * np.nan_to_num(noise))
@@ -99,7 +100,7 @@ def _of_rows(delaunay: Delaunay, found: tuple[Any, ...]) -> _Ridge:
         by_row[:, row] = by_row[:, same]
     rows = first_rows[vertices]
     still = (delaunay.points.xy[rows] == at).all(axis=1)
-    return _Ridge(by_row[0], by_row[1], rows, at, still)
+    return _Ridge(by_row[0], by_row[1], rows, at, still, known is not None)
 
 
 def _start(ridge: _Ridge, crests: IntArray, closed: bool) -> Polygon:
@@ -120,28 +121,31 @@ def _owners(points: FloatArray, starts: list[Polygon], ridge: _Ridge) -> IntArra
     return np.where(distance <= reach, numbers[node], -1)
 
 
-def _strand(
+def _strands(
     points: FloatArray, ridge: _Ridge, crests: IntArray, start: Polygon, rows: IntArray
-) -> Strand | None:
+) -> list[Strand]:
+    """Return the strands along a part of the ridge: none, one, or two near each other."""
     # In the order of the coordinates, so that sums do not depend on that of the rows.
     rows = rows[np.lexsort((ridge.noise[rows], *points[rows].T))]
     noise = np.nan_to_num(ridge.noise[rows], nan=float(np.nanmedian(ridge.noise)))
-    floor = 1e-3 * start.length / max(len(rows), 1)
-    noise = np.maximum(noise, floor)
-    is_still = bool(ridge.still[crests].all())
     spacing = start.length / max(len(rows), 1)
+    noise = np.maximum(noise, 1e-3 * spacing)
+    is_still = bool(ridge.still[crests].all())
     if is_still and (len(rows) < ROWS or np.median(ridge.noise[rows]) < 2 * CLEAN * spacing):
-        return _kept(points, ridge, crests, start.closed)
+        return [_kept(points, ridge, crests, start.closed)]
     if len(rows) < ROWS or start.length < LONG * np.median(noise):
-        return None
+        return []
     fitted = fit(points[rows], noise, start)
-    noise = noise * fitted.deviation
-    feet = fitted.polygon.feet(points[rows])
-    if np.median(noise) < CLEAN * spacing:
+    if np.median(noise) * fitted.deviation < CLEAN * spacing:
         if is_still:
-            return _kept(points, ridge, crests, start.closed)
-        return _ordered(points, rows, feet, noise, start.closed)
-    return _new(points, rows, fitted.polygon, feet, noise, fitted.uncertainty)
+            return [_kept(points, ridge, crests, start.closed)]
+        return [_ordered(points, rows, fitted, noise)]
+    # Estimates feel both strands, so they tell nothing of either.
+    alike = noise if ridge.known else np.full(len(noise), np.median(noise))
+    two = pair(points[rows], alike, fitted.polygon)
+    return [_new(points, rows[own], each, alike[own]) for own, each in two] or [
+        _new(points, rows, fitted, noise)
+    ]
 
 
 def _kept(points: FloatArray, ridge: _Ridge, crests: IntArray, closed: bool) -> Strand:
@@ -151,26 +155,20 @@ def _kept(points: FloatArray, ridge: _Ridge, crests: IntArray, closed: bool) -> 
     return Strand(points[rows], closed, zero, rows, np.arange(len(rows)), ridge.noise[rows], True)
 
 
-def _ordered(
-    points: FloatArray, rows: IntArray, feet: Feet, noise: FloatArray, closed: bool
-) -> Strand:
+def _ordered(points: FloatArray, rows: IntArray, fitted: Fit, noise: FloatArray) -> Strand:
     """Return the strand through the points themselves, in their order along the curve."""
     _, first = np.unique(points[rows], axis=0, return_index=True)
-    order = first[np.argsort(feet.along[first], kind="stable")]
-    chosen = rows[order]
-    zero = np.zeros(len(chosen))
-    return Strand(points[chosen], closed, zero, chosen, np.arange(len(chosen)), noise[order], True)
+    along = fitted.polygon.feet(points[rows[first]]).along
+    order = first[np.argsort(along, kind="stable")]
+    chosen, own = rows[order], fitted.deviation * noise[order]
+    zero, owners = np.zeros(len(chosen)), np.arange(len(chosen))
+    return Strand(points[chosen], fitted.polygon.closed, zero, chosen, owners, own, True)
 
 
-def _new(
-    points: FloatArray,
-    rows: IntArray,
-    polygon: Polygon,
-    feet: Feet,
-    noise: FloatArray,
-    uncertainty: FloatArray,
-) -> Strand:
+def _new(points: FloatArray, rows: IntArray, fitted: Fit, noise: FloatArray) -> Strand:
     """Return the strand through new vertices, without outliers and cut where the points end."""
+    polygon, noise = fitted.polygon, fitted.deviation * noise
+    feet = polygon.feet(points[rows])
     near = np.abs(feet.offset) <= FAR * noise
     first, last = (0, len(polygon)) if polygon.closed else _ends(polygon, feet, noise, near)
     owners = np.rint(feet.along).astype(int)
@@ -178,7 +176,7 @@ def _new(
     return Strand(
         polygon.nodes[first:last],
         polygon.closed,
-        uncertainty[first:last],
+        fitted.uncertainty[first:last],
         rows[near],
         owners[near],
         noise[near],
