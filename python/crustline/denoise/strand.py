@@ -12,6 +12,7 @@ from crustline import _core
 from crustline.arrays import BoolArray, FloatArray, IntArray
 from crustline.curves import trace
 from crustline.delaunay import Delaunay
+from crustline.denoise.ends import joined
 from crustline.denoise.mixture import pair
 from crustline.denoise.polygon import Feet, Polygon
 from crustline.denoise.smoother import Fit, fit
@@ -83,6 +84,7 @@ def strands(
     parts = [part for part in parts if len(part[0]) >= CRESTS or ridge.still[part[0]].all()]
     if not parts:
         return []
+    parts = joined(parts, ridge.at, ridge.width[ridge.rows])
     starts = [_start(ridge, *part) for part in parts]
     owner = _owners(delaunay.points.xy, starts, ridge)
     made = []
