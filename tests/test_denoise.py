@@ -12,6 +12,8 @@ import pytest
 
 import crustline as cl
 import generators as make
+from crustline.denoise.ends import joined
+from crustline.denoise.mixture import HALVES, PLACES, Mixture
 from crustline.denoise.polygon import Polygon
 from crustline.denoise.smoother import fit
 from generators import Rows
@@ -224,6 +226,103 @@ def test_a_thick_slice_is_one_line(shape: str) -> None:
     points = np.column_stack((x, 6 * np.sin(x / 40) + rng.uniform(-3, 3, len(x))))
     points = np.unique(np.rint(points), axis=0) if shape == "pixels" else points
     assert topology(cl.denoise(points)) == (0, 1)
+
+
+def strands(apart: float, closed: bool, seed: int, noise: float = 0.02) -> tuple[Rows, list[Rows]]:
+    """Points of two strands so many deviations apart, 200 of each, and both finely."""
+    rng = np.random.default_rng(seed)
+    paths = []
+    for side in (-apart * noise / 2, apart * noise / 2):
+        t = np.linspace(0, 2 * np.pi, 4001)
+        if closed:
+            x, y = np.cos(t), 0.7 * np.sin(t)
+            normal = np.column_stack((0.7 * np.cos(t), np.sin(t)))
+        else:
+            x, y = t - np.pi, 0.3 * np.sin(2 * t)
+            normal = np.column_stack((-0.6 * np.cos(2 * t), np.ones_like(t)))
+        normal /= np.hypot(*normal.T)[:, None]
+        paths.append(np.column_stack((x, y)) + side * normal)
+    at = [np.sort(rng.choice(4000, 200, replace=False)) for _ in paths]
+    exact = np.vstack([path[own] for path, own in zip(paths, at, strict=True)])
+    return rng.permutation(exact + rng.normal(0, noise, exact.shape)), paths
+
+
+@pytest.mark.parametrize("closed", [True, False])
+@pytest.mark.parametrize("apart", [3.2, 4.0, 5.0, 6.0])
+def test_strands_near_each_other_are_two(apart: float, closed: bool) -> None:
+    spatial = pytest.importorskip("scipy.spatial")
+    for seed in range(2):
+        points, paths = strands(apart, closed, seed)
+        found = cl.denoise(points)
+        assert topology(found) == ((2, 0) if closed else (0, 2))
+        # Each is near one of the two all along, and not both near the same.
+        nearest = set()
+        for curve in found.curves:
+            vertices = found.curves.points.xy[curve.indices]
+            off = [spatial.cKDTree(path).query(vertices)[0].mean() for path in paths]
+            nearest.add(int(np.argmin(off)))
+            assert min(off) < 0.5 * 0.02
+        assert nearest == {0, 1}
+        assert 0.8 * 0.02 < np.nanmedian(found.noise) < 1.2 * 0.02
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_one_strand_is_not_two(closed: bool) -> None:
+    for seed in range(3):
+        points, _ = strands(0, closed, seed)
+        assert len(cl.denoise(points).curves) == 1
+
+
+def test_a_mixture_gains_likelihood_and_finds_its_law() -> None:
+    rng = np.random.default_rng(3)
+    offsets = rng.normal(0, 1, 4000) + np.where(rng.random(4000) < 0.4, -2.0, 2.0)
+    two = Mixture(PLACES, HALVES, 0.0, 1.0, 1.0)
+    likelihood = [float(two.odds(offsets)[1].sum())]
+    for _ in range(60):
+        two = two.better(offsets)
+        likelihood.append(float(two.odds(offsets)[1].sum()))
+    assert (np.diff(likelihood) > -1e-6).all()
+    assert abs(two.half - 2) < 0.1
+    assert abs(two.deviation - 1) < 0.1
+    assert abs(two.shares[0] - 0.4) < 0.05
+
+
+def test_sharp_corners_are_not_torn() -> None:
+    vertices = np.array([(0, 0), (4, 1), (1, 1.5), (2, 5), (-1, 2)], float)
+    ring = Polygon(vertices, True).resampled(250, smooth=False)
+    for seed in range(3):
+        noise = np.random.default_rng(seed).normal(0, 0.5 * ring.length / 250, (250, 2))
+        assert topology(cl.denoise(ring.nodes + noise)) == (1, 0)
+
+
+def test_ends_that_look_at_each_other_go_on_and_those_beside_each_other_do_not() -> None:
+    x = np.arange(20.0)
+    left = np.column_stack((x, np.zeros(20)))
+    right, beside = left + np.array([22.5, 0]), left + np.array([0, 2])
+    parts = [(np.arange(20), False), (np.arange(20, 40), False)]
+    width = np.ones(40)
+    ((path, closed),) = joined(parts, np.vstack((left, right)), width)
+    assert path.tolist() in (list(range(40)), list(range(40))[::-1])
+    assert not closed
+    assert len(joined(parts, np.vstack((left, beside)), width)) == 2
+    assert len(joined(parts, np.vstack((left, right + np.array([5, 0]))), width)) == 2
+    angle = np.linspace(0.1, 6.1, 40)
+    ((_, closed),) = joined(
+        [(np.arange(40), False)], 5 * np.c_[np.cos(angle), np.sin(angle)], width
+    )
+    assert closed
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("noise", [0.5, 2.0])
+def test_a_ring_of_many_points_at_random_places_is_one(noise: float) -> None:
+    # Gaps of 13 mean steps came in two places, and with more noise a corner where there is none.
+    count = 100_000
+    rng = np.random.default_rng(0)
+    angle = rng.uniform(0, 2 * np.pi, count)
+    circle = np.column_stack((np.cos(angle), np.sin(angle)))
+    points = circle + rng.normal(0, noise * 2 * np.pi / count, circle.shape)
+    assert topology(cl.denoise(points)) == (1, 0)
 
 
 def test_fit_of_reconstruct_is_denoise_with_rows_beside_the_vertices() -> None:

@@ -20,8 +20,8 @@ FEWEST = {True: 8, False: 12}
 #: Points of a ring, and of a line, from which on that counts; of fewer, which can be on a smooth
 #: curve by chance, less does.
 SURE = {True: 12, False: 40}
-#: Points of no clean curve, within so many steps of an end, with which a line goes on.
-SOME, AHEAD = 2, 2.0
+#: The share of all points that are on clean curves where small ones count, too.
+SHARE = 0.25
 #: How many neighbors on either side predict a point.
 NEIGHBORS = (2, 3, 4)
 #: The median of the absolute value of a standard normal number.
@@ -35,34 +35,13 @@ def clean_strands(delaunay: Delaunay, method: Callable[..., ArrayLike]) -> list[
     fewest = np.where(curves.closed, FEWEST[True], FEWEST[False])
     most = CLEAN * np.minimum(sizes / np.where(curves.closed, SURE[True], SURE[False]), 1.0)
     is_clean = (sizes >= fewest) & (_noise(delaunay.points.xy, curves) < most)
-    made = [
+    # Of many pieces of noisy curves a small one is smooth by chance: not of clean curves.
+    if sizes[is_clean].sum() < SHARE * sizes.sum():
+        is_clean &= sizes >= SURE[False]
+    return [
         _strand(delaunay, curves.indices[slice(*curves.offsets[k : k + 2])], bool(curves.closed[k]))
         for k in np.flatnonzero(is_clean)
     ]
-    others = delaunay.points.xy[rest(delaunay, made)]
-    return [strand for strand in made if not _goes_on(strand, others)]
-
-
-def _goes_on(strand: Strand, others: FloatArray) -> bool:
-    """Whether others lie about the ends of a line, or about a small ring, as if to go on.
-
-    Then it is a piece of a noisy curve.
-    """
-    path = strand.vertices
-    step = float(np.median(np.hypot(*np.diff(path, axis=0).T)))
-    if strand.closed and len(path) >= SURE[False]:
-        return False
-    places = [path] if strand.closed else [path[:1], path[-1:]]
-    near = [_about(others, each, AHEAD * step) for each in places]
-    return max(near) >= (2 * SOME if strand.closed else SOME)
-
-
-def _about(others: FloatArray, places: FloatArray, reach: float) -> int:
-    """Return how many others are within reach of some places."""
-    low, high = places.min(axis=0) - reach, places.max(axis=0) + reach
-    some = others[((low <= others) & (others <= high)).all(axis=1)]
-    away = np.hypot(*(some[:, None] - places).transpose(2, 0, 1))
-    return int((away <= reach).any(axis=1).sum())
 
 
 def _noise(points: FloatArray, curves: Curves) -> FloatArray:

@@ -1,12 +1,12 @@
 """Two curves where one was fitted: strands so near each other that no window parts them.
 
-Across two strands of the same noise, 3 deviations apart, lie points of a mixture of two normal
+Across two strands of the same noise, 3 deviations apart, points are a mixture of two normal
 distributions, whose dip in the middle no window of a few points shows. All points along the curve
-together do: so their distances from the curve in the middle are explained in three ways, as one
-normal distribution, as two, and as one spread evenly over a width and blurred by a normal one, which
-is what thick slices and pixels look like, as flat as two strands are but without the dip. If two are
-likeliest, both curves are fitted at once, each point belonging to either by the odds (expectation
-and maximization), so they need not be parallel.
+together do: so their distances from the curve in the middle are explained in three ways: as one
+normal distribution; as two; and as one spread evenly over a width and blurred, which is what thick
+slices and pixels look like, as flat as two strands are but without the dip. If two are likeliest,
+both curves are fitted at once, each point belonging to either by the odds (expectation and
+maximization), so they need not be parallel.
 
 A. P. Dempster, N. M. Laird, D. B. Rubin, "Maximum Likelihood from Incomplete Data via the EM
 Algorithm", Journal of the Royal Statistical Society B 39 (1977), 1-38.
@@ -61,7 +61,7 @@ class Mixture:
         return terms / total[:, None], np.log(total) + top
 
     def better(self, offsets: FloatArray) -> Mixture:
-        """Return it after a round of expectation and maximization, of which shares of two are part."""
+        """Return it after a round of expectation and maximization; of two, shares are free, too."""
         odds = self.odds(offsets)[0]
         mean, square = odds @ self.places, odds @ self.places**2
         middle = float((offsets - self.half * mean).mean())
