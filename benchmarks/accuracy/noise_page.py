@@ -43,8 +43,8 @@ each true one, a ring for a ring and a line for a line, each along nine tenths o
 Beside that stands the median over the cases of the distance of the result from the truth, root
 mean square, over the noise. Families are described in `benchmarks/accuracy/noise.py`. Constants
 were chosen on the half "tuned"; the half "unseen" was looked at {looks}. Each share is of {each}
-cases. Strands, two curves 3 to 6 deviations apart, are not kept
-([why](decisions/0006-denoise.md)).
+cases. How two strands 3 to 6 deviations apart are told from one is
+[here](decisions/0006-denoise.md).
 
 """
 CIRCLE = """

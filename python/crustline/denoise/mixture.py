@@ -23,12 +23,12 @@ from crustline.denoise.polygon import Polygon
 from crustline.denoise.smoother import Fit, fit
 
 #: How much likelier two strands are than one of a flat profile, and of a normal one, natural
-#: logarithms, and how far apart at least, in deviations.
-FLAT, NORMAL, APART = 2.5, 8.0, 2.5
+#: logarithms; how likely beside the latter they are at first; and how far apart, in deviations.
+FLAT, NORMAL, FIRST, APART = 1.0, 9.0, 4.0, 2.5
 #: The kurtosis above which distances are not those of two strands: 3 are those of one, 2.04 those
 #: of two that are 3 deviations apart.
 PEAKED = 2.6
-#: Rounds of the mixture, and of both curves.
+#: Rounds of the mixture, and of curves.
 ROUNDS, TURNS = 80, 3
 #: Distances at the most that are judged.
 MANY = 4000
@@ -42,6 +42,29 @@ SPREAD, EVEN = np.polynomial.legendre.leggauss(24)
 
 
 @dataclass(frozen=True, eq=False)
+class Offsets:
+    """Distances of points from a curve, positive to the left, and how wide their noise is."""
+
+    values: FloatArray
+    noise: FloatArray
+
+    @property
+    def square(self) -> float:
+        """The mean square beside the noise."""
+        return float(((self.values / self.noise) ** 2).mean())
+
+    @property
+    def kurtosis(self) -> float:
+        """The mean fourth power over the square of the mean square, beside the noise."""
+        return float(((self.values / self.noise) ** 4).mean()) / self.square**2
+
+    @property
+    def normal(self) -> float:
+        """The log-likelihood of one normal distribution."""
+        return -len(self.values) / 2 * float(np.log(2 * np.pi * self.square) + 1)
+
+
+@dataclass(frozen=True, eq=False)
 class Mixture:
     """A law of places, moved by `middle` and scaled by `half`, and blurred by a normal noise."""
 
@@ -51,33 +74,43 @@ class Mixture:
     half: float
     deviation: float
 
-    def odds(self, offsets: FloatArray) -> tuple[FloatArray, FloatArray]:
+    @property
+    def shift(self) -> FloatArray:
+        """How far each place is from the curve."""
+        return self.middle + self.half * self.places
+
+    def odds(self, offsets: Offsets) -> tuple[FloatArray, FloatArray]:
         """Return how probably each offset is from each place, and its log-likelihood."""
-        away = (offsets[:, None] - self.middle - self.half * self.places) / self.deviation
+        away = (offsets.values[:, None] - self.shift) / offsets.noise[:, None] / self.deviation
         logarithms = np.log(self.shares / (self.deviation * np.sqrt(2 * np.pi))) - away**2 / 2
         top = logarithms.max(axis=1)
         terms = np.exp(logarithms - top[:, None])
         total = terms.sum(axis=1)
         return terms / total[:, None], np.log(total) + top
 
-    def better(self, offsets: FloatArray) -> Mixture:
+    def likelihood(self, offsets: Offsets) -> float:
+        """Return the log-likelihood of offsets."""
+        return float(self.odds(offsets)[1].sum())
+
+    def better(self, offsets: Offsets) -> Mixture:
         """Return it after a round of expectation and maximization; of two, shares are free, too."""
-        odds = self.odds(offsets)[0]
+        odds, weights = self.odds(offsets)[0], offsets.noise**-2.0
         mean, square = odds @ self.places, odds @ self.places**2
-        middle = float((offsets - self.half * mean).mean())
-        off = offsets - middle
-        half = float((off * mean).sum() / square.sum())
-        variance = float((off**2 - 2 * half * off * mean + half**2 * square).mean())
-        deviation = max(np.sqrt(max(variance, 0.0)), half / 10, np.finfo(float).tiny)
+        middle = float(np.average(offsets.values - self.half * mean, weights=weights))
+        off = offsets.values - middle
+        half = float((weights * off * mean).sum() / (weights * square).sum())
+        variance = (weights * (off**2 - 2 * half * off * mean + half**2 * square)).mean()
+        deviation = np.sqrt(max(float(variance), half**2 * weights.mean() / 100))
         is_two = len(self.places) == 2
         shares = odds.mean(axis=0).clip(LEAST, 1 - LEAST) if is_two else self.shares
         return Mixture(self.places, shares, middle, half, float(deviation))
 
 
-def mixture(offsets: FloatArray, places: FloatArray, shares: FloatArray) -> Mixture:
+def mixture(offsets: Offsets, places: FloatArray, shares: FloatArray) -> Mixture:
     """Return the mixture with a law of places that makes offsets most likely."""
-    scale = float(np.sqrt((offsets**2).mean() / (shares * places**2).sum()))
-    found = Mixture(places, shares, 0.0, 0.85 * scale, 0.5 * scale)
+    scale = float(np.sqrt((offsets.values**2).mean() / (shares * places**2).sum()))
+    width = float(np.sqrt(offsets.square))
+    found = Mixture(places, shares, 0.0, 0.85 * scale, 0.5 * width)
     for _ in range(ROUNDS):
         found = found.better(offsets)
     return found
@@ -88,14 +121,12 @@ def pair(points: FloatArray, noise: FloatArray, middle: Polygon) -> list[tuple[B
 
     `noise` tells how wide the noise is at each of the points beside the others.
     """
-    feet = middle.feet(points)
-    offsets = feet.offset / noise
-    two = _two(offsets[~feet.beyond])
-    if two is None:
+    found = _two(points, noise, middle)
+    if found is None:
         return []
-    shares = two.odds(offsets)[0].T
-    shift = (two.middle + two.half * two.places) * float(np.median(noise))
-    curves = [Polygon(middle.nodes + by * middle.normals, middle.closed) for by in shift]
+    two, middle = found
+    shares = two.odds(_offsets(points, noise, middle)[0])[0].T
+    curves = [Polygon(middle.nodes + by * middle.normals, middle.closed) for by in two.shift]
     for _ in range(TURNS):
         made = [
             fit(points, noise, curve, shares=own) for curve, own in zip(curves, shares, strict=True)
@@ -108,17 +139,46 @@ def pair(points: FloatArray, noise: FloatArray, middle: Polygon) -> list[tuple[B
     return list(zip(own, made, strict=True))
 
 
-def _two(offsets: FloatArray) -> Mixture | None:
-    """Return the mixture of two normal distributions, if nothing else explains offsets as well."""
-    offsets = offsets[:: -(-len(offsets) // MANY)]
-    square = float((offsets**2).mean())
-    if len(offsets) < 2 * GAP or not (offsets**4).mean() < PEAKED * square**2:
+def _two(points: FloatArray, noise: FloatArray, middle: Polygon) -> tuple[Mixture, Polygon] | None:
+    """Return the mixture of two normal distributions, and the curve between, if that is likeliest.
+
+    The curve is fitted anew to points moved by what the mixture says: two strands blur the first.
+    """
+    some = _offsets(points, noise, middle)[1]
+    if len(some.values) < 2 * GAP or not some.kurtosis < PEAKED:
         return None
-    two, flat = mixture(offsets, PLACES, HALVES), mixture(offsets, SPREAD, EVEN / 2)
-    likelihood = [float(each.odds(offsets)[1].sum()) for each in (two, flat)]
-    normal = -len(offsets) / 2 * (np.log(2 * np.pi * square) + 1)
-    is_two = likelihood[0] > max(likelihood[1] + FLAT, normal + NORMAL)
-    return two if is_two and 2 * two.half > APART * two.deviation else None
+    normal, two = some.normal, mixture(some, PLACES, HALVES)
+    if two.likelihood(some) < normal + FIRST:
+        return None
+    for _ in range(TURNS):
+        middle = _between(points, noise, middle, two)
+        some = _offsets(points, noise, middle)[1]
+        two = mixture(some, PLACES, HALVES)
+    flat = mixture(some, SPREAD, EVEN / 2).likelihood(some)
+    if two.likelihood(some) < max(flat + FLAT, normal + NORMAL):
+        return None
+    apart = 2 * two.half / (two.deviation * float(np.median(noise)))
+    return (two, middle) if apart > APART else None
+
+
+def _offsets(points: FloatArray, noise: FloatArray, middle: Polygon) -> tuple[Offsets, Offsets]:
+    """Return those of all points, and those of some that are judged."""
+    feet = middle.feet(points)
+    on = np.flatnonzero(~feet.beyond)
+    some = on[:: max(1, -(-len(on) // MANY))]
+    return Offsets(feet.offset, noise), Offsets(feet.offset[some], noise[some])
+
+
+def _between(points: FloatArray, noise: FloatArray, middle: Polygon, two: Mixture) -> Polygon:
+    """Return the curve between two strands: each point is moved there from either, by the odds."""
+    feet = middle.feet(points)
+    normals = middle.normals
+    share = feet.share[:, None]
+    across = (1 - share) * normals[feet.edge] + share * normals[(feet.edge + 1) % len(middle)]
+    across /= np.maximum(np.hypot(*across.T), np.finfo(float).tiny)[:, None]
+    moved = np.vstack([points - by * across for by in two.shift])
+    odds = two.odds(Offsets(feet.offset, noise))[0]
+    return fit(moved, np.tile(noise, 2), middle, shares=odds.T.ravel()).polygon
 
 
 def _shares(
