@@ -201,6 +201,8 @@ def _cross(curves: list[Polygon]) -> bool:
 
 def _goes_on(middle: Polygon, points: FloatArray) -> bool:
     """Whether points are all along a curve: that is what tells strands from bends not followed."""
+    if len(points) < GAP:
+        return False
     along = np.sort(middle.feet(points).along)
     steps = len(middle.path) - 1
     ends = [along[:1] + steps] if middle.closed else [[steps]]
