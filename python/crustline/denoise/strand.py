@@ -81,10 +81,11 @@ def strands(
     curves = trace(ridge.at, method(delaunay.alike(ridge.at)))
     bounds = zip(curves.offsets[:-1], curves.offsets[1:], curves.closed, strict=True)
     parts = [(curves.indices[a:b], bool(closed)) for a, b, closed in bounds]
-    parts = [part for part in parts if len(part[0]) >= CRESTS or ridge.still[part[0]].all()]
+    still = [part for part in parts if ridge.still[part[0]].all()]
+    moved = [p for p in parts if len(p[0]) >= CRESTS and not ridge.still[p[0]].all()]
+    parts = still + joined(moved, ridge.at, ridge.width[ridge.rows])
     if not parts:
         return []
-    parts = joined(parts, ridge.at, ridge.width[ridge.rows])
     starts = [_start(ridge, *part) for part in parts]
     owner = _owners(delaunay.points.xy, starts, ridge)
     made = []
