@@ -30,8 +30,9 @@ FLAT, NORMAL, FIRST, APART = 1.0, 9.0, 4.0, 2.5
 PEAKED = 2.6
 #: Rounds of the mixture, and of curves.
 ROUNDS, TURNS = 80, 3
-#: Distances at the most that are judged.
-MANY = 4000
+#: Distances at the least and at the most that are judged: few means of cells, as thinning leaves
+#: them, are in two columns.
+FEWEST, MANY = 160, 4000
 #: The share of the points that each strand has at least.
 LEAST = 0.2
 #: Usual steps of a strand without a point of it on which it is not seen to go on.
@@ -145,7 +146,7 @@ def _two(points: FloatArray, noise: FloatArray, middle: Polygon) -> tuple[Mixtur
     The curve is fitted anew to points moved by what the mixture says: two strands blur the first.
     """
     some = _offsets(points, noise, middle)[1]
-    if len(some.values) < 2 * GAP or not some.kurtosis < PEAKED:
+    if len(some.values) < FEWEST or not some.kurtosis < PEAKED:
         return None
     normal, two = some.normal, mixture(some, PLACES, HALVES)
     if two.likelihood(some) < normal + FIRST:
