@@ -49,7 +49,7 @@ def test_the_background_may_be_a_file_in_another_crs(tmp_path):
     square.write(tmp_path / "coast.gpkg")
     meters = cl.project(cl.Points([(8.2, 54.2), (8.8, 54.8)], crs="EPSG:4326"), "EPSG:25832")
     plot.picture(meters, tmp_path / "a.png", background=tmp_path / "coast.gpkg")
-    there = segments_of(plot.plot_background(meters, tmp_path / "coast.gpkg"))
+    there = segments_of(plot.plot_background(meters, outlines=tmp_path / "coast.gpkg"))
     assert len(there) == 4
 
 
@@ -58,7 +58,9 @@ def test_a_background_needs_the_same_kind_of_crs(tmp_path):
         plot.plot_background(cl.Points([(8, 54), (9, 55)]))
     cl.reconstruct([(0, 0), (1, 0), (0, 1)]).write(tmp_path / "a.geojson")
     with pytest.raises(cl.InputError, match="outlines of the background"):
-        plot.plot_background(cl.Points([(8, 54)], crs="EPSG:4326"), tmp_path / "a.geojson")
-    assert not len(segments_of(plot.plot_background(cl.Points([(8, 5)]), tmp_path / "a.geojson")))
+        plot.plot_background(cl.Points([(8, 54)], crs="EPSG:4326"), outlines=tmp_path / "a.geojson")
+    assert not len(
+        segments_of(plot.plot_background(cl.Points([(8, 5)]), outlines=tmp_path / "a.geojson"))
+    )
     with pytest.raises(cl.CrustlineError):
-        plot.plot_background(cl.Points([(8, 54)], crs="EPSG:4326"), tmp_path / "none.gpkg")
+        plot.plot_background(cl.Points([(8, 54)], crs="EPSG:4326"), outlines=tmp_path / "none.gpkg")

@@ -33,7 +33,7 @@ _AROUND, _LEAST = 1.0, 1e-9
 
 
 def plot_background(
-    points: Points, outlines: str | os.PathLike[str] | Curves = "world", ax: Axes | None = None
+    points: Points, ax: Axes | None = None, *, outlines: str | os.PathLike[str] | Curves = "world"
 ) -> Axes:
     """Draw the outlines of a map around points, in the CRS of the points.
 
@@ -41,11 +41,11 @@ def plot_background(
     ----------
     points : Points
         What is drawn above, with its CRS; columns called longitude and latitude need none.
+    ax : Axes, optional
+        Where to draw; new Axes if not given. Its limits stay those of the points.
     outlines : "world", path-like or Curves, default "world"
         The world's coasts, at 1:110,000,000; or lines and polygons, in a file of any format that
         curves are read from, such as coast.gpkg.
-    ax : Axes, optional
-        Where to draw; new Axes if not given. Its limits stay those of the points.
 
     Returns
     -------

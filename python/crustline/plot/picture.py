@@ -100,7 +100,7 @@ def picture(
         rcdefaults()
         ax, _ = axes(None, made.points)
         if background is not None:
-            plot_background(made.points, background, ax)
+            plot_background(made.points, ax, outlines=background)
         for name, draw in LAYERS.items():
             if name in show:
                 draw(made, ax)
