@@ -299,7 +299,7 @@ HARD = ("outliers 30 to 50 %", "noise 0.15 to 1", *JUNCTIONS)
 
 #: The seed of each half. What was looked at and led to a change is unseen no more: its seed is
 #: never used again, and "unseen" gets the next one.
-SEEDS = {"tuned": 0, "unseen": 4}
+SEEDS = {"tuned": 0, "unseen": 5}
 
 HALVES = tuple(SEEDS)
 

@@ -15,7 +15,7 @@ from scipy.spatial import KDTree
 
 import crustline as cl
 
-from .families import HALVES
+from .families import SEEDS
 from .outline import Array, Outline, Rng, arc, blob, drawing, wave
 from .sampling import at, even, length
 
@@ -162,7 +162,7 @@ def noisy_cases(half: str, each: int, noise: float) -> Iterator[NoisyCase]:
     """Yield `each` cases of every family, of one half, with one noise; rows in random order."""
     for family, make in NOISY.items():
         for number in range(each):
-            key = [HALVES.index(half), number, round(100 * noise), *f"noisy {family}".encode()]
+            key = [SEEDS[half], number, round(100 * noise), *f"noisy {family}".encode()]
             rng = np.random.default_rng(key)
             made = make(rng, noise)
             deviation = noise * made.step

@@ -23,6 +23,7 @@ import numpy as np
 
 from crustline.arrays import IntArray
 from crustline.distributed import Result, reconstruct
+from crustline.distributed.cluster import ENGINE
 from experiments.scale.report import RESULTS, write_page
 from experiments.scale.rings import Rings
 
@@ -88,12 +89,14 @@ class Watch(threading.Thread):
 
 def measured(folder: Path, rings: Rings) -> dict[str, Any]:
     """Return what a run takes, and how many edges of the rings it has missed."""
+    from dask import config
     from distributed import Client, LocalCluster
 
     # Else Arrow, and malloc for each thread, set addresses aside that they may never use.
     os.environ |= {"ARROW_DEFAULT_MEMORY_POOL": "system", "MALLOC_ARENA_MAX": "1"}
     source, few = write_input(folder / "in", rings), write_input(folder / "few", Rings(40))
     with (
+        config.set(ENGINE),
         LocalCluster(
             n_workers=1, threads_per_worker=1, memory_limit=None, dashboard_address="127.0.0.1:0"
         ) as cluster,

@@ -37,9 +37,8 @@ COLUMNS = (
 
 NOTE = """
 The load is that of the last quarter of an hour, on two cores: where it is above one, the run waited
-for its turn, and minutes are too many. With a hundred times the points the worker held a quarter
-more at most: some 15 kB stay with it for each of the steps that it has done. They are not Dask's,
-whose steps that do nothing leave nothing behind; what they are has not been found.
+for its turn, and minutes are too many. Workers keep no samples of what they do, which Dask's do by
+default: they grow by some 15 kB with each step.
 """
 
 

@@ -19,6 +19,9 @@ _POINT = 800
 _WORKER = 400_000_000
 #: Seconds to wait for a scheduler.
 _PATIENCE = 10
+#: What Dask's workers are told: not to keep samples of what they do, some 15 kB for each step, and
+#: not to warn of ticks that a long step holds up.
+ENGINE = {"distributed.worker.profile.enabled": False, "distributed.admin.tick.limit": "1h"}
 
 
 @dataclass(frozen=True)
@@ -64,7 +67,7 @@ def _local(limit: int) -> Any:
     from distributed import LocalCluster
 
     workers = max(1, min(CPU_COUNT, limit // _WORKER))
-    with config.set({"distributed.admin.tick.limit": "1h"}):
+    with config.set(ENGINE):
         return LocalCluster(
             n_workers=workers,
             threads_per_worker=1,
