@@ -85,8 +85,9 @@ def _refuse_far_cells(source: Source, path: Path) -> None:
     with zipfile.ZipFile(path) as archive:
         for height, width in extents(archive):
             if height * width > _MOST_CELLS:
+                rows, columns = (f"{min(each, _MOST_CELLS):,}" for each in (height, width))
                 raise source.error(
-                    f"a sheet spans {height:,} rows and {width:,} columns: "
+                    f"a sheet spans {rows} rows and {columns} columns at the least: "
                     "delete what is far from the points"
                 )
 
