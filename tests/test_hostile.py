@@ -83,6 +83,18 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
         r"names is \['a'\]: pass two different names",
     ),
     "heights that are complex": (lambda: cl.Points([(0, 0)], z=[1j]), "z must be a number"),
+    "a progress that is none": (
+        lambda: cl.r_sample(shapes.circle(), 0.5, progress=lambda: None),  # type: ignore[misc, arg-type]
+        "give a function of a stage and a fraction",
+    ),
+    "a number for progress": (
+        lambda: cl.Delaunay([(0, 0)], progress=5),  # type: ignore[arg-type]
+        "progress is 5: give a function",
+    ),
+    "an array for a format of slices": (
+        lambda: cl.slices(b"", "z=0", format=np.eye(3)),  # type: ignore[arg-type]
+        "format",
+    ),
     "a curve that is none": (lambda: cl.r_sample(3, 0.5), "curve is 3, not a SmoothCurve"),  # type: ignore[arg-type]
     "a choice that is an array": (
         lambda: cl.r_sample(shapes.circle(), 0.5, mode=np.zeros(2)),  # type: ignore[arg-type]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property, partial
+from inspect import signature
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from crustline import _core
 from crustline.arrays import IntArray, read_only
+from crustline.errors import InputError, shown
 from crustline.notebook import table
 from crustline.points import Points, as_carried, as_coordinates
 from crustline.scalars import as_whole
@@ -107,7 +109,7 @@ class Delaunay:
         progress: Progress | None = None,
     ) -> None:
         self.points = as_carried(points)
-        self._how = (None if threads is None else as_threads(threads), progress)
+        self._how = (None if threads is None else as_threads(threads), as_progress(progress))
         self._core = _core.Delaunay(self.points.xy, *self._how)
         self._made: dict[str, Any] = {}
 
@@ -225,6 +227,21 @@ class Delaunay:
         from crustline.plot import plot_delaunay
 
         return plot_delaunay(self, ax, **options)
+
+
+def as_progress(progress: Any) -> Progress | None:
+    """Return what hears of progress; an `InputError` for what takes no stage and fraction."""
+    if progress is not None:
+        try:
+            signature(progress).bind("stage", 0.0)
+        except TypeError:
+            raise InputError(
+                f"progress is {shown(progress)}: give a function of a stage and a fraction"
+            ) from None
+        except ValueError:  # of some functions in C nobody knows
+            pass
+    heard: Progress | None = progress
+    return heard
 
 
 def as_threads(threads: object) -> int:

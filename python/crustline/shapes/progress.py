@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 
-from crustline.delaunay import Progress
+from crustline.delaunay import Progress, as_progress
 
 _asked: ContextVar[Progress | None] = ContextVar("asked", default=None)
 
@@ -17,7 +17,7 @@ _asked: ContextVar[Progress | None] = ContextVar("asked", default=None)
 @contextmanager
 def told_to(progress: Progress | None) -> Iterator[None]:
     """Pass on to `progress` what is told within."""
-    before = _asked.set(progress)
+    before = _asked.set(as_progress(progress))
     try:
         yield
     finally:

@@ -85,7 +85,8 @@ def mesh_of(source: Source, format: str | None, crs: str | None = None) -> Mesh 
     """Return the triangles of a file by its format or suffix; None if it holds points alone."""
     for each in able("mesh"):
         by_suffix = format is None and source.suffix in each.suffixes
-        if (format == each.name or by_suffix) and each.mesh is not None:
+        by_name = isinstance(format, str) and format == each.name
+        if (by_name or by_suffix) and each.mesh is not None:
             triangles = each.mesh(source)
             return None if triangles is None else Mesh.of(source.name, *triangles, crs)
     return None
