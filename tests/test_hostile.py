@@ -91,6 +91,10 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: cl.Delaunay([(0, 0)], progress=5),  # type: ignore[arg-type]
         "progress is 5: give a function",
     ),
+    "planes without end": (
+        lambda: cl.slices([(0, 0, 0)], hostile.Endless()),
+        "more than 100,000 planes",
+    ),
     "an array for a format of slices": (
         lambda: cl.slices(b"", "z=0", format=np.eye(3)),  # type: ignore[arg-type]
         "format",

@@ -115,6 +115,7 @@ def test_sizes_anywhere_are_the_least_over_all_samples(seed: int, slope: float) 
     away = np.hypot(*(places[:, None] - samples).transpose(2, 0, 1))
     expected = (smooth.local_feature_size + slope * away).min(axis=1, initial=np.inf)
     assert np.array_equal(smooth.size_at(places, gradation=slope), expected)
+    assert smooth.size_at([(1e308, -1e308)], gradation=2).tolist() == [np.inf]  # beyond numbers
 
 
 def test_sizes_of_what_has_no_axis_are_infinite() -> None:

@@ -107,14 +107,8 @@ class Interpolant:
         xy, sizes = self.points.xy[known], self.local_feature_size[known]
         found = np.full(len(where), np.inf)
         for start in range(0, len(where) if len(xy) else 0, _RUN):
-            run = where[start : start + _RUN]
-            low, high = run.min(0), run.max(0)
-            nearest = np.hypot(*np.maximum(0, np.maximum(low - xy, xy - high)).T)
-            farthest = np.hypot(*np.maximum(xy - low, high - xy).T)
-            most = (sizes + slope * farthest).min()
-            near = sizes + slope * nearest <= most
-            away = np.hypot(*(run[:, None] - xy[near][None]).transpose(2, 0, 1))
-            found[start : start + _RUN] = (sizes[near] + slope * away).min(axis=1)
+            with np.errstate(over="ignore"):  # what is too far for a number is infinitely far
+                found[start : start + _RUN] = _sizes(where[start : start + _RUN], xy, sizes, slope)
         return read_only(found)
 
     def run(self, work: Callable[..., Made], *arguments: object) -> Made:
@@ -134,6 +128,17 @@ class Interpolant:
 
     def __repr__(self) -> str:
         return f"<Interpolant: {len(self.edges)} edges between {len(self.points)} points>"
+
+
+def _sizes(run: FloatArray, xy: FloatArray, sizes: FloatArray, slope: float) -> FloatArray:
+    """Return the least size that the samples near some places allow there."""
+    low, high = run.min(0), run.max(0)
+    nearest = np.hypot(*np.maximum(0, np.maximum(low - xy, xy - high)).T)
+    farthest = np.hypot(*np.maximum(xy - low, high - xy).T)
+    near = sizes + slope * nearest <= (sizes + slope * farthest).min()
+    away = np.hypot(*(run[:, None] - xy[near][None]).transpose(2, 0, 1))
+    least: FloatArray = (sizes[near] + slope * away).min(axis=1)
+    return least
 
 
 def interpolant(delaunay: Delaunay, edges: IntArray) -> Interpolant:

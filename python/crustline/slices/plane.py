@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -83,9 +84,11 @@ def as_planes(planes: Any) -> list[Plane]:
     """Return planes of what a caller gives: planes, texts, or a sequence of these."""
     each = [planes] if isinstance(planes, str | Plane) else planes
     try:
-        every = list(each)
+        every = list(islice(each, _MOST + 1))
     except TypeError:  # an array of no dimension, too, has no elements
         raise InputError(f"planes is {shown(planes)}: {_WRITE}") from None
+    if len(every) > _MOST:
+        raise InputError(f"there are more than {_MOST:,} planes: slice by fewer at once")
     found: list[Plane] = []
     for one in every:
         found += [one] if isinstance(one, Plane) else _of_text(one)
