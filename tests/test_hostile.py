@@ -91,6 +91,15 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: cl.Delaunay([(0, 0)], progress=5),  # type: ignore[arg-type]
         "progress is 5: give a function",
     ),
+    "a line without end": (lambda: cl.section(hostile.Endless()), "is no line"),
+    "a start without end": (
+        lambda: cl.trace([(0, 0), (1, 0), (0, 1)], [(0, 1)]).oriented(start=hostile.Endless()),
+        "give x and y, a row",
+    ),
+    "an accuracy beyond the width": (
+        lambda: cl.center_line(cl.reconstruct([(0, 0), (1, 0), (0, 1)], closed=True), accuracy=1e308),
+        r"accuracy must be in \(0, 1\]",
+    ),
     "planes without end": (
         lambda: cl.slices([(0, 0, 0)], hostile.Endless()),
         "more than 100,000 planes",

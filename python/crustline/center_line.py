@@ -12,7 +12,7 @@ from crustline.delaunay import Delaunay
 from crustline.errors import InputError, shown
 from crustline.medial_axis import MedialAxis, medial_axis
 from crustline.points import Points
-from crustline.scalars import as_positive
+from crustline.scalars import as_share
 
 __all__ = ["center_line"]
 
@@ -58,7 +58,7 @@ def center_line(curves: Curves, *, accuracy: float = 0.01) -> MedialAxis:
         Rings, which bound the polygons (even-odd), and polylines within them. Where polygons are
         in a file, `crustline.read_curves` gives them.
     accuracy : float, default 0.01
-        How far the axis may be off, as a part of the local width.
+        How far the axis may be off, as a part of the local width; 1 at the most.
 
     Returns
     -------
@@ -90,7 +90,7 @@ def center_line(curves: Curves, *, accuracy: float = 0.01) -> MedialAxis:
     if not isinstance(curves, Curves):
         raise InputError(f"curves is {shown(curves)}: pass what trace or reconstruct returns")
     sides = _sides_of(curves)
-    part = np.sqrt(16 * as_positive("accuracy", accuracy))
+    part = np.sqrt(16 * as_share("accuracy", accuracy))
     shortest = _SHORTEST * float(np.ptp(sides.xy, axis=0).max())
     while True:
         delaunay = Delaunay(Points(sides.xy, crs=curves.points.crs))

@@ -11,7 +11,7 @@ from numbers import Integral
 import numpy as np
 import numpy.typing as npt
 
-from crustline.arrays import BoolArray, FloatArray, IntArray
+from crustline.arrays import BoolArray, FloatArray, IntArray, not_too_deep
 from crustline.errors import InputError, shown
 from crustline.scalars import as_choice
 
@@ -105,7 +105,7 @@ def _cost(start: object, xy: FloatArray) -> FloatArray:
         axis, sign = COMPASS[start]
         return xy[:, axis] * sign
     try:
-        place: npt.NDArray[np.float64] = np.asarray(start, dtype=np.float64)
+        place: npt.NDArray[np.float64] = np.asarray(not_too_deep(start, most=1), np.float64)
     except (TypeError, ValueError, OverflowError):
         place = np.zeros(0)
     if place.shape != (2,) or not np.isfinite(place).all():

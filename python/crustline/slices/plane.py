@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from crustline.arrays import FloatArray
+from crustline.arrays import FloatArray, not_too_deep
 from crustline.errors import InputError, shown
 from crustline.records import Record
 from crustline.scalars import as_real
@@ -191,7 +191,8 @@ def section(line: Any, *, name: str = "") -> Plane:
 
 def _line_of(line: Any) -> list[float]:
     try:
-        parts = line.split(",") if isinstance(line, str) else np.ravel(line).tolist()
+        is_text = isinstance(line, str)
+        parts = line.split(",") if is_text else np.ravel(not_too_deep(line, most=2)).tolist()
         numbers = list(map(float, parts))
     except (TypeError, ValueError, OverflowError):
         numbers = []
