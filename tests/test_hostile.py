@@ -20,6 +20,7 @@ from hostile import Call
 
 #: A call that takes longer is shown where it is, and the run ends.
 HANGS = 600
+TRIANGLE = [(0, 0), (1, 0), (0, 1)]
 
 
 @pytest.fixture(autouse=True)
@@ -93,11 +94,11 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     ),
     "a line without end": (lambda: cl.section(hostile.Endless()), "is no line"),
     "a start without end": (
-        lambda: cl.trace([(0, 0), (1, 0), (0, 1)], [(0, 1)]).oriented(start=hostile.Endless()),
+        lambda: cl.trace(TRIANGLE, [(0, 1)]).oriented(start=hostile.Endless()),
         "give x and y, a row",
     ),
     "an accuracy beyond the width": (
-        lambda: cl.center_line(cl.reconstruct([(0, 0), (1, 0), (0, 1)], closed=True), accuracy=1e308),
+        lambda: cl.center_line(cl.trace(TRIANGLE, [(0, 1), (1, 2), (0, 2)]), accuracy=1e308),
         r"accuracy must be in \(0, 1\]",
     ),
     "planes without end": (
