@@ -126,7 +126,7 @@ def pair(points: FloatArray, noise: FloatArray, middle: Polygon) -> list[tuple[B
     if found is None:
         return []
     two, middle = found
-    shares = two.odds(_offsets(points, noise, middle)[0])[0].T
+    shares = two.odds(Offsets(middle.feet(points).offset, noise))[0].T
     curves = [Polygon(middle.nodes + by * middle.normals, middle.closed) for by in two.shift]
     for _ in range(TURNS):
         made = [
@@ -145,7 +145,7 @@ def _two(points: FloatArray, noise: FloatArray, middle: Polygon) -> tuple[Mixtur
 
     The curve is fitted anew to points moved by what the mixture says: two strands blur the first.
     """
-    some = _offsets(points, noise, middle)[1]
+    some = _judged(points, noise, middle)
     if len(some.values) < FEWEST or not some.kurtosis < PEAKED:
         return None
     normal, two = some.normal, mixture(some, PLACES, HALVES)
@@ -153,7 +153,7 @@ def _two(points: FloatArray, noise: FloatArray, middle: Polygon) -> tuple[Mixtur
         return None
     for _ in range(TURNS):
         middle = _between(points, noise, middle, two)
-        some = _offsets(points, noise, middle)[1]
+        some = _judged(points, noise, middle)
         two = mixture(some, PLACES, HALVES)
     flat = mixture(some, SPREAD, EVEN / 2).likelihood(some)
     if two.likelihood(some) < max(flat + FLAT, normal + NORMAL):
@@ -162,12 +162,12 @@ def _two(points: FloatArray, noise: FloatArray, middle: Polygon) -> tuple[Mixtur
     return (two, middle) if apart > APART else None
 
 
-def _offsets(points: FloatArray, noise: FloatArray, middle: Polygon) -> tuple[Offsets, Offsets]:
-    """Return those of all points, and those of some that are judged."""
+def _judged(points: FloatArray, noise: FloatArray, middle: Polygon) -> Offsets:
+    """Return those of points beside a curve; of very many, of some."""
     feet = middle.feet(points)
     on = np.flatnonzero(~feet.beyond)
     some = on[:: max(1, -(-len(on) // MANY))]
-    return Offsets(feet.offset, noise), Offsets(feet.offset[some], noise[some])
+    return Offsets(feet.offset[some], noise[some])
 
 
 def _between(points: FloatArray, noise: FloatArray, middle: Polygon, two: Mixture) -> Polygon:

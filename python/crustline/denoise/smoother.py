@@ -54,9 +54,10 @@ def fit(
 
     Where `shares` are given, points belong to it by so much each, from 0 to 1.
     """
-    polygon, shares = start, np.ones(len(points)) if shares is None else shares
+    polygon, weights = start, noise**-2.0
+    shares = np.ones(len(points)) if shares is None else shares
     for k in range(rounds):
-        step = _Step(polygon, polygon.feet(points), noise**-2.0, shares)
+        step = _Step(polygon, polygon.feet(points), weights, shares)
         if k < 2:
             exponent = step.likeliest(WIDE)
         if k > 0:

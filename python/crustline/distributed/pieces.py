@@ -15,8 +15,14 @@ import numpy as np
 import numpy.typing as npt
 
 from crustline.arrays import IntArray
-from crustline.distributed.store import Records, Written, on_files, write, write_records
-from crustline.errors import CrustlineError
+from crustline.distributed.store import (
+    Records,
+    Written,
+    damaged,
+    on_files,
+    write,
+    write_records,
+)
 
 Points = npt.NDArray[np.void]
 
@@ -91,7 +97,7 @@ def parts_in(folder: Path, path: str, tiles: range) -> Iterator[Part]:
                 file.seek((first + start) * POINT.itemsize)
                 points = np.fromfile(file, POINT, stop - start)
             if len(points) < stop - start:
-                raise CrustlineError(f"{file.name} is damaged: run again with resume")
+                raise damaged(Path(file.name), "it ends too early")
             yield Part(points, np.diff(bound[tiles.start : tiles.stop + 1]))
             first += int(bound[-1])
 
@@ -100,6 +106,4 @@ def _opened(path: Path) -> Any:
     try:
         return path.open("rb", buffering=0)
     except OSError as error:
-        raise CrustlineError(
-            f"{path} is damaged or gone ({error}): run again with resume"
-        ) from None
+        raise damaged(path, str(error)) from None

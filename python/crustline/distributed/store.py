@@ -98,6 +98,11 @@ def named_faults(path: Path) -> Iterator[None]:
         raise CrustlineError(message) from error
 
 
+def damaged(path: Path, reason: str) -> CrustlineError:
+    """Return what to say of a file that is not as it was written."""
+    return CrustlineError(f"{path} is damaged or gone ({reason}): run again with resume")
+
+
 def clean(folder: Path) -> None:
     """Remove what writers that were killed have left."""
     for part in folder.rglob(f"*{PART}"):
@@ -166,8 +171,7 @@ class Records(Sequence[Arrays]):
                 options = pa.ipc.IpcReadOptions(included_fields=list(wanted))
                 self._file = pa.ipc.open_file(source, options=options)
         except (OSError, pa.ArrowInvalid) as error:
-            message = f"{path} is damaged or gone ({error}): run again with resume"
-            raise CrustlineError(message) from None
+            raise damaged(path, str(error)) from None
 
     def __len__(self) -> int:
         return int(self._file.num_record_batches)
