@@ -97,9 +97,30 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: cl.trace(TRIANGLE, [(0, 1)]).oriented(start=hostile.Endless()),
         "give x and y, a row",
     ),
+    "a start in the complex plane": (
+        lambda: cl.trace(TRIANGLE, [(0, 1)]).oriented(start=np.zeros(2, complex)),  # type: ignore[arg-type]
+        "give x and y, a row",
+    ),
+    "a start whose row has a hundred digits": (
+        lambda: cl.trace(TRIANGLE, [(0, 1)]).oriented(start=10**100),
+        "start is row 1000",
+    ),
     "an accuracy beyond the width": (
         lambda: cl.center_line(cl.trace(TRIANGLE, [(0, 1), (1, 2), (0, 2)]), accuracy=1e308),
-        r"accuracy must be in \(0, 1\]",
+        r"accuracy must be in \[1e-6, 1\]",
+    ),
+    "an accuracy beyond floats": (
+        lambda: cl.center_line(cl.trace(TRIANGLE, [(0, 1), (1, 2), (0, 2)]), accuracy=5e-324),
+        r"accuracy must be in \[1e-6, 1\]",
+    ),
+    "an axis of more samples than memory holds": (
+        lambda: cl.center_line(
+            cl.trace(
+                [(0, 0), (1e5, 0), (1e5, 1), (0, 1)], [(0, 1), (1, 2), (2, 3), (0, 3)]
+            ),
+            accuracy=1e-6,
+        ),
+        "asks for more than 10,000,000 samples",
     ),
     "planes without end": (
         lambda: cl.slices([(0, 0, 0)], hostile.Endless()),

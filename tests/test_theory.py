@@ -166,6 +166,8 @@ def test_note_after_theorem_13_spacing_for_a_given_error() -> None:
     spacing = theory.spacing_for_error(error, sizes)
     np.testing.assert_allclose(theory.reconstruction_error(spacing / sizes) * sizes, error)
     assert theory.spacing_for_error(1e9, sizes).tolist() == sizes.tolist()
+    assert theory.spacing_for_error(1e308, [0, 1e308]).tolist() == [0, 1e308]
+    np.testing.assert_allclose(theory.spacing_for_error(5e199, [1e300]), 1e250)
     with pytest.raises(InputError, match="distance must be positive and finite, not 0"):
         theory.spacing_for_error(0, sizes)
     with pytest.raises(InputError, match=r"feature_size must be 0 or more, got -1\.0"):

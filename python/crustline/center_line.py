@@ -12,14 +12,16 @@ from crustline.delaunay import Delaunay
 from crustline.errors import InputError, shown
 from crustline.medial_axis import MedialAxis, medial_axis
 from crustline.points import Points
-from crustline.scalars import as_share
+from crustline.scalars import as_real
 
 __all__ = ["center_line"]
 
 #: Where rings cross, no sample is near enough: pieces of this part of the whole extent tell.
-_SHORTEST = 1e-9
+_SHORTEST = 1e-11
 #: Into how many pieces a round cuts a side at the most.
 _PIECES = 8
+#: How many samples of the sides an axis is made of at the most: they need a few gigabytes.
+_MOST = 10**7
 
 
 @dataclass(frozen=True)
@@ -58,7 +60,7 @@ def center_line(curves: Curves, *, accuracy: float = 0.01) -> MedialAxis:
         Rings, which bound the polygons (even-odd), and polylines within them. Where polygons are
         in a file, `crustline.read_curves` gives them.
     accuracy : float, default 0.01
-        How far the axis may be off, as a part of the local width; 1 at the most.
+        How far the axis may be off, as a part of the local width; in [1e-6, 1].
 
     Returns
     -------
@@ -68,7 +70,7 @@ def center_line(curves: Curves, *, accuracy: float = 0.01) -> MedialAxis:
     Raises
     ------
     InputError
-        If no curve is a ring, or rings cross each other.
+        If no curve is a ring, rings cross each other, or `accuracy` asks for more than 10⁷ samples.
 
     Notes
     -----
@@ -90,7 +92,8 @@ def center_line(curves: Curves, *, accuracy: float = 0.01) -> MedialAxis:
     if not isinstance(curves, Curves):
         raise InputError(f"curves is {shown(curves)}: pass what trace or reconstruct returns")
     sides = _sides_of(curves)
-    part = np.sqrt(16 * as_share("accuracy", accuracy))
+    accuracy = as_real("accuracy", accuracy, "in [1e-6, 1]", lambda x: 1e-6 <= x <= 1)
+    part = np.sqrt(16 * accuracy)
     shortest = _SHORTEST * float(np.ptp(sides.xy, axis=0).max())
     while True:
         delaunay = Delaunay(Points(sides.xy, crs=curves.points.crs))
@@ -132,8 +135,13 @@ def _pieces_needed(sides: _Sides, delaunay: Delaunay, part: float, accuracy: flo
         allowed = _allowed(sides, delaunay, triangle, part)
         near = _at_a_corner(sides, delaunay, triangle)
         allowed = np.where(near, np.maximum(allowed, accuracy * widest), allowed)
-        with np.errstate(divide="ignore"):
-            needed = np.ceil(np.minimum(lengths / allowed, _PIECES))
+        with np.errstate(divide="ignore", over="ignore"):
+            asked = lengths / allowed
+        if asked.sum(where=triangle >= 0) > _MOST:
+            raise InputError(
+                f"accuracy: {accuracy:g} asks for more than {_MOST:,} samples: allow a larger part"
+            )
+        needed = np.ceil(np.minimum(asked, _PIECES))
         counts = np.maximum(counts, np.where(triangle < 0, 1, needed).astype(np.int64))
     return np.where(absent, 2, counts)
 

@@ -7,11 +7,12 @@ ring's direction before is known: `trace` gives counter-clockwise ones, exactly.
 from __future__ import annotations
 
 from numbers import Integral
+from typing import cast
 
 import numpy as np
 import numpy.typing as npt
 
-from crustline.arrays import BoolArray, FloatArray, IntArray, not_too_deep
+from crustline.arrays import BoolArray, FloatArray, IntArray, as_floats
 from crustline.errors import InputError, shown
 from crustline.scalars import as_choice
 
@@ -95,7 +96,8 @@ def _places_of_row(row: int, indices: IntArray, offsets: IntArray, closed: BoolA
         if closed[curve] or place in (0, last):
             places[curve], found = place, True
     if not found:
-        raise InputError(f"start is row {row}, on no ring and at no end: give another row")
+        given = shown(row, 30)
+        raise InputError(f"start is row {given}, on no ring and at no end: give another row")
     return places
 
 
@@ -105,8 +107,8 @@ def _cost(start: object, xy: FloatArray) -> FloatArray:
         axis, sign = COMPASS[start]
         return xy[:, axis] * sign
     try:
-        place: npt.NDArray[np.float64] = np.asarray(not_too_deep(start, most=1), np.float64)
-    except (TypeError, ValueError, OverflowError):
+        place = as_floats("start", cast("npt.ArrayLike", start))
+    except InputError:
         place = np.zeros(0)
     if place.shape != (2,) or not np.isfinite(place).all():
         words = ", ".join(COMPASS)

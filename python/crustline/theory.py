@@ -260,8 +260,10 @@ def spacing_for_error(distance: float, feature_size: ArrayLike) -> Floats:
     sizes = as_floats("feature_size", feature_size)
     if not np.all(sizes >= 0):
         raise InputError(f"feature_size must be 0 or more, got {sizes[~(sizes >= 0)].flat[0]}")
-    with np.errstate(over="ignore"):
-        return np.minimum(np.sqrt(2 * distance * sizes), sizes)
+    half = sizes / 2
+    # Two roots: the product of two large numbers may be beyond all floats, its root is not.
+    spacing = np.sqrt(2 * np.minimum(distance, half)) * np.sqrt(sizes)
+    return np.where(distance < half, spacing, sizes)
 
 
 # --- The crust: Theorems 14 and 15 --------------------------------------------------------------
