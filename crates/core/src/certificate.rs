@@ -1,11 +1,13 @@
 //! The reasons of a certificate: at which points and edges the conditions of a theorem of the paper fail, and which.
 
-use crate::certify::{Measures, measure};
+use crate::adjacency::vertices_of_rows;
+use crate::certify::{Turn, ratios, turns_more};
 use crate::delaunay::Delaunay;
 use crate::edges::Edges;
 use crate::error::Result;
 use crate::interpolant::Interpolant;
 use crate::methods::{Kind, beta_skeleton, crust, is_beta_skeleton};
+use crate::parts::{collect, map};
 use crate::progress::Progress;
 use rayon::prelude::*;
 
@@ -104,16 +106,15 @@ pub fn certify(
     known: Option<Edges>,
     progress: &Progress,
 ) -> Result<Certificate> {
-    let Measures { ratios, turns, degrees } = measure(delaunay, edges, smooth, progress)?;
+    let ratios = ratios(delaunay, edges, smooth, progress)?;
     let (theorem, crust) = theorem(delaunay, edges, smooth, theorems, known, progress)?;
     let threshold = match theorem {
         Some(Theorem::Crust) => theorems.of_crust,
         _ => theorems.of_skeleton,
     };
     // A sample angle is at least π less this (paper, Lemma 10).
-    let most = 4.0 * libm::asin(threshold / 2.0);
-    let of_degree = |(&degree, &turn): (&u32, &f64)| reason_of_degree(degree, turn > most);
-    let mut points: Vec<Reason> = degrees.par_iter().zip(turns.par_iter()).map(of_degree).collect();
+    let most = Turn::new(4.0 * libm::asin(threshold / 2.0));
+    let mut points = of_points(delaunay, smooth, &most, progress)?;
     // Where a theorem applies the edges differ from nothing.
     let other = crust.iter().filter(|_| theorem.is_none());
     for row in other.clone().flat_map(|crust| without(crust, edges)).flatten() {
@@ -157,14 +158,22 @@ fn theorem(
     Ok(((crust == *edges).then_some(Theorem::Crust), Some(crust)))
 }
 
-fn reason_of_degree(degree: u32, is_corner: bool) -> Reason {
-    match degree {
-        0 => Reason::Isolated,
-        1 => Reason::Endpoint,
-        2 if is_corner => Reason::Corner,
-        2 => Reason::None,
+/// For each row the reason that its edges are, and how the polygon turns between two.
+fn of_points(
+    delaunay: &Delaunay,
+    smooth: &Interpolant,
+    most: &Turn,
+    progress: &Progress,
+) -> Result<Vec<Reason>> {
+    let of_vertex = |v: usize| match *smooth.curve().of(v as u32) {
+        [] => Reason::Isolated,
+        [_] => Reason::Endpoint,
+        [(a, _), (b, _)] if turns_more(delaunay, a, v as u32, b, most) => Reason::Corner,
+        [_, _] => Reason::None,
         _ => Reason::Branch,
-    }
+    };
+    let reasons = map(delaunay.points().len(), Reason::None, progress, of_vertex)?;
+    Ok(collect(&vertices_of_rows(delaunay), |&v| reasons[v as usize]))
 }
 
 fn reason(edge: [u32; 2], points: &[Reason], is_sparse: bool) -> Reason {

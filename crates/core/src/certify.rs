@@ -1,67 +1,62 @@
 //! What a certificate rests on: how densely the smooth interpolant of edges is sampled, edge by edge.
 
-use crate::adjacency::{Adjacency, vertices_of_rows};
+use crate::adjacency::vertices_of_rows;
 use crate::delaunay::Delaunay;
 use crate::edges::Edges;
 use crate::error::Result;
 use crate::interpolant::{Bend, Interpolant};
-use crate::parts::map;
+use crate::parts::{map, split};
 use crate::point::{Point, cross, dot, sub};
 use crate::progress::{Progress, Stage};
-use rayon::prelude::*;
+use crate::rows::OfVertices;
 
-/// The measures of edges and rows.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Measures {
-    /// For each edge: the distance from the curve Voronoi vertex to its samples over the local feature size there.
-    /// Infinite where an end is a branch.
-    pub ratios: Vec<f64>,
-    /// For each row: the angle by which the polygon turns there; 0 unless it has two edges.
-    pub turns: Vec<f64>,
-    /// For each row: how many edges it has. A repeated row has those of the first of its kind.
-    pub degrees: Vec<u32>,
-}
-
-/// Measure `edges`, which are canonical.
+/// For each of `edges`, which are canonical: the distance from the curve Voronoi vertex to its samples over the local feature size there.
 ///
-/// The curve Voronoi vertex is where the dual of the edge meets the interpolant (paper, §5): beside the midpoint, by the
-/// height of the arc that has the mean curvature of the edge's ends. Linear time.
+/// Infinite where an end is a branch. The curve Voronoi vertex is where the dual of the edge meets the interpolant (paper, §5): beside
+/// the midpoint, by the height of the arc that has the mean curvature of the edge's ends. Linear time.
 ///
 /// # Errors
 /// A cancelled `progress`.
-pub fn measure(
+pub fn ratios(
     delaunay: &Delaunay,
     edges: &Edges,
     axis: &Interpolant,
     progress: &Progress,
-) -> Result<Measures> {
-    let curve = axis.curve();
-    progress.enter(Stage::Measure, 2 * edges.len() + delaunay.points().len())?;
-    let vertex = vertices_of_rows(delaunay);
-    let rows = delaunay.rows();
-    let in_order = |&[p, q]: &[u32; 2]| {
-        let is_turned = rows[p as usize] > rows[q as usize];
-        ratio(delaunay, axis, if is_turned { [q, p] } else { [p, q] })
-    };
-    // In the order of vertices, which are near each other in memory where they are in the plane; rows need not be.
-    let turn = |v: usize| (turn(delaunay, curve, v as u32), curve.of(v as u32).len() as u32);
-    let (turns, degrees) = {
-        let turns = map(delaunay.points().len(), (0.0, 0), progress, turn)?;
-        vertex.par_iter().map(|&v| turns[v as usize]).unzip()
-    };
-    let own = curve.edges();
-    let ratios = map(own.len(), 0.0, progress, |k| in_order(&own[k]))?;
-    let is_distinct = delaunay.duplicates().is_empty();
-    let of_rows = |edge: &[u32; 2]| {
-        let ends = edge.map(|row| vertex[row as usize]);
-        if is_distinct || ends.map(|v| rows[v as usize]) == *edge {
-            curve.edge(ends[0], ends[1]).map_or(f64::INFINITY, |number| ratios[number as usize])
-        } else {
-            ratio(delaunay, axis, ends)
-        }
-    };
-    let ratios = map(edges.len(), 0.0, progress, |k| of_rows(&edges[k]))?;
-    Ok(Measures { ratios, turns, degrees })
+) -> Result<Vec<f64>> {
+    let count = delaunay.points().len();
+    if !delaunay.duplicates().is_empty() {
+        // Several edges may be between the same two vertices.
+        progress.enter(Stage::Measure, edges.len())?;
+        let vertex = vertices_of_rows(delaunay);
+        let of_rows = |edge: &[u32; 2]| ratio(delaunay, axis, edge.map(|row| vertex[row as usize]));
+        return map(edges.len(), 0.0, progress, |k| of_rows(&edges[k]));
+    }
+    progress.enter(Stage::Measure, 3 * count)?;
+    let of_vertex = |v, ratios: &mut Vec<f64>| append(delaunay, axis, v, ratios);
+    let own = OfVertices::new(count, progress, of_vertex)?;
+    let mut ratios = vec![0.0; edges.len()];
+    own.by_rows(
+        delaunay,
+        progress,
+        |counts| split(&mut ratios, counts.iter().copied()),
+        |part, own| part.copy_from_slice(own),
+    )?;
+    Ok(ratios)
+}
+
+/// Append the ratios of the edges from `v` to vertices of later rows, in the order of these.
+fn append(delaunay: &Delaunay, axis: &Interpolant, v: u32, ratios: &mut Vec<f64>) {
+    let (row, start) = (|v: u32| delaunay.rows()[v as usize], ratios.len());
+    let ends = axis.curve().of(v);
+    for &(q, _) in ends.iter().filter(|&&(q, _)| row(q) > row(v)) {
+        ratios.push(ratio(delaunay, axis, [v, q]));
+    }
+    // At a branch they are all infinite.
+    if let &[(a, _), (b, _)] = ends
+        && row(a) > row(b)
+    {
+        ratios[start..].reverse();
+    }
 }
 
 /// The ratio of the edge from p to q.
@@ -89,10 +84,58 @@ fn curve_vertex(delaunay: &Delaunay, bends: &[Option<Bend>], p: u32, q: u32) -> 
     ([from[0] + offset[0], from[1] + offset[1]], dot(offset, offset).sqrt())
 }
 
-/// The angle by which the polygon turns at `v`.
-fn turn(delaunay: &Delaunay, curve: &Adjacency, v: u32) -> f64 {
-    let &[(a, _), (b, _)] = curve.of(v) else { return 0.0 };
+/// Does the polygon turn by more than `most` at a vertex between `a` and `b`?
+#[must_use]
+pub fn turns_more(delaunay: &Delaunay, a: u32, v: u32, b: u32, most: &Turn) -> bool {
     let at = delaunay.point(v);
     let (u, w) = (sub(at, delaunay.point(a)), sub(delaunay.point(b), at));
-    libm::atan2(cross(u, w), dot(u, w)).abs()
+    most.is_less(cross(u, w).abs(), dot(u, w))
+}
+
+/// An angle that others are compared with.
+pub struct Turn {
+    angle: f64,
+    sin_cos: (f64, f64),
+}
+
+impl Turn {
+    /// Of so many radians.
+    #[must_use]
+    pub fn new(angle: f64) -> Self {
+        Self { angle, sin_cos: (libm::sin(angle), libm::cos(angle)) }
+    }
+
+    /// Is it less than the angle, from 0 to π, with these sine and cosine, times some length?
+    fn is_less(&self, sine: f64, cosine: f64) -> bool {
+        /// Beyond all rounding.
+        const DOUBT: f64 = 1e-12;
+        let (sin, cos) = self.sin_cos;
+        let beyond = sine * cos - cosine * sin;
+        let is_sure = beyond.abs() > DOUBT * (sine + cosine.abs());
+        if is_sure && (0.0..std::f64::consts::PI).contains(&self.angle) {
+            return beyond > 0.0;
+        }
+        libm::atan2(sine, cosine) > self.angle
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_are_compared_as_by_their_arc_tangent() {
+        let angles = [0.0, 1e-9, 0.5, 1.0, 2.5, std::f64::consts::PI, 4.0];
+        for most in angles {
+            let turn = Turn::new(most);
+            for near in angles {
+                for step in [-1e-3, -1e-13, -1e-16, 0.0, 1e-16, 1e-13, 1e-3] {
+                    let (sine, cosine) = (near + step).min(std::f64::consts::PI).sin_cos();
+                    let (sine, cosine) = (3.0 * sine.abs(), 3.0 * cosine);
+                    assert_eq!(turn.is_less(sine, cosine), libm::atan2(sine, cosine) > most);
+                }
+            }
+            assert_eq!(turn.is_less(0.0, 0.0), 0.0 > most);
+        }
+    }
 }

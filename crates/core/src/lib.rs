@@ -26,6 +26,7 @@ mod parts;
 mod point;
 mod progress;
 pub mod ridge;
+mod rows;
 mod space;
 pub mod tiles;
 pub mod trace;

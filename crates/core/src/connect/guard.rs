@@ -2,7 +2,7 @@
 
 use super::constants::{MARGIN, PROVEN};
 use crate::adjacency::{Incidence, vertices_of_rows};
-use crate::certify::measure;
+use crate::certify::ratios;
 use crate::delaunay::Delaunay;
 use crate::edges::Edges;
 use crate::error::Result;
@@ -34,7 +34,7 @@ pub fn guard(
         return Ok(edges);
     }
     let interpolant = Interpolant::new(delaunay, crust, progress)?;
-    let ratios = measure(delaunay, crust, &interpolant, progress)?.ratios;
+    let ratios = ratios(delaunay, crust, &interpolant, progress)?;
     let is_proven = |side: [u32; 2]| {
         let number = crust.binary_search(&side).expect("rings of the crust are made of its edges");
         (1.0 + MARGIN) * ratios[number] < PROVEN

@@ -20,6 +20,7 @@ use leaf::Leaf;
 pub use rings::NONE;
 use slots::{HalfEdge, SLOTS, Slots};
 pub use stars::{Star, Stars};
+pub use triangles::{triangle_parts, vertices_of_part};
 
 /// The most points that one triangulation can hold: half-edges are numbered in 32 bits.
 pub const MOST_POINTS: usize = (u32::MAX as usize - 1) / SLOTS;

@@ -3,18 +3,22 @@
 use super::Delaunay;
 use super::rings::NONE;
 use crate::exact::circumcenter::circumcenter;
+use crate::parts::{GRAIN, each, split};
 use crate::point::Point;
 use rayon::prelude::*;
+use std::ops::Range;
 
 impl Delaunay {
     /// The triangles as vertices, counter-clockwise, each from its smallest vertex; sorted by that, then around it.
     #[must_use]
     pub fn triangles(&self) -> Vec<[u32; 3]> {
-        let from = |p: u32| {
-            let smallest = move |&(q, r): &(u32, u32)| p < q && p < r;
-            self.star(p).wedges().filter(smallest).map(move |(q, r)| [p, q, r])
-        };
-        (0..self.points.len() as u32).into_par_iter().flat_map_iter(from).collect()
+        self.map_triangles([0; 3], |triangle| triangle)
+    }
+
+    /// The triangles whose smallest corner is `p`.
+    pub fn triangles_from(&self, p: u32) -> impl Iterator<Item = [u32; 3]> {
+        let smallest = move |&(q, r): &(u32, u32)| p < q.min(r);
+        self.star(p).wedges().filter(smallest).map(move |(q, r)| [p, q, r])
     }
 
     /// The triangles as input rows, in the order of [`triangles`](Self::triangles).
@@ -27,7 +31,7 @@ impl Delaunay {
     /// The twin of each half-edge: half-edge 3t + k runs from corner k of triangle t to the next. `None` on the hull.
     #[must_use]
     pub fn twins(&self) -> Vec<Option<u32>> {
-        let wedges = self.wedge_triangles();
+        let wedges = self.wedge_triangles(&self.first_triangles());
         let twin = |p: u32, q: u32| {
             let star = self.star(q);
             let k = star.position(p);
@@ -40,9 +44,10 @@ impl Delaunay {
     }
 
     /// For each half-edge, in the order of the stars: the triangle to its left; `NONE` on the outside of the hull.
+    ///
+    /// `first` are the first triangles of vertices.
     #[must_use]
-    pub fn wedge_triangles(&self) -> Vec<u32> {
-        let first = self.first_triangles();
+    pub fn wedge_triangles(&self, first: &[u32]) -> Vec<u32> {
         self.stars.map(NONE, |p, triangles| {
             let mut own = first[p as usize];
             let star = self.star(p);
@@ -53,32 +58,37 @@ impl Delaunay {
                         own += 1;
                         own - 1
                     }
-                    1 => self.triangle_of(&first, r, p),
-                    _ => self.triangle_of(&first, q, r),
+                    1 => self.triangle_of(first, r, p),
+                    _ => self.triangle_of(first, q, r),
                 };
             }
         })
     }
 
-    /// For each vertex the number of triangles whose smallest corner is smaller.
-    fn first_triangles(&self) -> Vec<u32> {
-        let count = |p: u32| {
-            let wedges = self.star(p).wedges();
-            wedges.filter(|&(q, r)| corner(p, q, r) == 0).count() as u32
-        };
-        let mut first: Vec<u32> =
-            (0..self.points.len() as u32).into_par_iter().map(count).collect();
+    /// For each vertex the number of triangles whose smallest corner is smaller, and last the number of all.
+    #[must_use]
+    pub fn first_triangles(&self) -> Vec<u32> {
+        let count = |p: u32| self.triangles_from(p).count() as u32;
+        let vertices = (0..self.points.len() as u32).into_par_iter();
+        let mut first: Vec<u32> = vertices.with_min_len(GRAIN).map(count).collect();
         let mut sum = 0;
         for first in &mut first {
             sum += std::mem::replace(first, sum);
         }
+        first.push(sum);
         first
     }
 
     /// The triangle whose smallest corner is p, to the left of p → q.
     fn triangle_of(&self, first: &[u32], p: u32, q: u32) -> u32 {
-        let before = self.star(p).wedges().take_while(|&(a, _)| a != q);
-        first[p as usize] + before.filter(|&(a, b)| corner(p, a, b) == 0).count() as u32
+        let mut number = first[p as usize];
+        for pair in self.star(p).neighbors.windows(2) {
+            if pair[0] == q {
+                break;
+            }
+            number += u32::from(p < pair[0].min(pair[1]));
+        }
+        number
     }
 
     /// The circumcenters, in the scale of the input, in the order of [`triangles`](Self::triangles).
@@ -86,25 +96,48 @@ impl Delaunay {
     /// Each is relative to its triangle's first corner before it is rounded to the coordinates.
     #[must_use]
     pub fn circumcenters(&self) -> Vec<Point> {
-        self.map_triangles(|[a, b, c]| {
-            let center = circumcenter([a, b, c]);
-            [0, 1].map(|axis| (a[axis] + center[axis]) / self.scale)
+        self.map_triangles([0.0; 2], |triangle| {
+            let corners = triangle.map(|vertex| self.point(vertex));
+            let center = circumcenter(corners);
+            [0, 1].map(|axis| (corners[0][axis] + center[axis]) / self.scale)
         })
     }
 
     /// The circumradii, in the scale of the input, in the order of [`triangles`](Self::triangles).
     #[must_use]
     pub fn circumradii(&self) -> Vec<f64> {
-        self.map_triangles(|[a, b, c]| {
-            let center = circumcenter([a, b, c]);
+        self.map_triangles(0.0, |triangle| {
+            let center = circumcenter(triangle.map(|vertex| self.point(vertex)));
             libm::hypot(center[0], center[1]) / self.scale
         })
     }
 
-    fn map_triangles<T: Send>(&self, map: impl Fn([Point; 3]) -> T + Sync) -> Vec<T> {
-        let triangles = self.triangles();
-        triangles.into_par_iter().map(|t| map(t.map(|vertex| self.point(vertex)))).collect()
+    /// The `value` of each triangle; until it is known there is `empty` in its place.
+    fn map_triangles<T: Clone + Send>(
+        &self,
+        empty: T,
+        value: impl Fn([u32; 3]) -> T + Sync + Send,
+    ) -> Vec<T> {
+        let first = self.first_triangles();
+        let mut values = vec![empty; first.last().map_or(0, |&count| count as usize)];
+        each(split(&mut values, triangle_parts(&first)), |k, part| {
+            let triangles = vertices_of_part(&first, k).flat_map(|p| self.triangles_from(p));
+            triangles.zip(part).for_each(|(triangle, slot)| *slot = value(triangle));
+        });
+        values
     }
+}
+
+/// How many triangles successive parts of the vertices have; `first` are the first triangles of vertices.
+pub fn triangle_parts(first: &[u32]) -> impl Iterator<Item = usize> {
+    let last = first.len() - 1;
+    let parts = (0..last).step_by(GRAIN);
+    parts.map(move |v| (first[(v + GRAIN).min(last)] - first[v]) as usize)
+}
+
+/// The vertices of part number `k`.
+pub fn vertices_of_part(first: &[u32], k: usize) -> Range<u32> {
+    (GRAIN * k) as u32..(GRAIN * (k + 1)).min(first.len() - 1) as u32
 }
 
 /// Which corner of its triangle `p` is, as the triangle starts from the smallest of `p`, `q`, `r`, counter-clockwise.

@@ -1,7 +1,9 @@
 //! The axis, and vertices that no double holds: three points that are nearly in line have a center farther away than the largest number.
 //! They count as infinitely far away, so their edges are rays, or lines.
 
+use crate::parts::GRAIN;
 use crate::point::{Point, sub};
+use rayon::prelude::*;
 
 /// The medial axis of samples.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -26,12 +28,13 @@ pub struct MedialAxis {
 
 /// The same axis with finite vertices alone; `place` gives the points by row.
 pub fn at_infinity(axis: MedialAxis, place: impl Fn(u32) -> Point) -> MedialAxis {
-    let is_known: Vec<bool> = (axis.vertices.iter().zip(&axis.radii))
-        .map(|(vertex, radius)| vertex.iter().all(|x| x.is_finite()) && radius.is_finite())
-        .collect();
-    if is_known.iter().all(|&known| known) {
+    let is_known = |(vertex, radius): (&Point, &f64)| {
+        vertex[0].is_finite() & vertex[1].is_finite() & radius.is_finite()
+    };
+    if axis.vertices.par_iter().zip(&axis.radii).with_min_len(GRAIN).all(is_known) {
         return axis;
     }
+    let is_known: Vec<bool> = axis.vertices.iter().zip(&axis.radii).map(is_known).collect();
     let mut near = Near { axis: MedialAxis::default(), rays: Vec::new() };
     let mut numbers = vec![0; is_known.len()];
     for v in (0..is_known.len()).filter(|&v| is_known[v]) {

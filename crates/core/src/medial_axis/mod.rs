@@ -3,23 +3,23 @@
 //! The Voronoi edges whose dual Delaunay edge is not selected. Its part inside the rings is told from the part outside by
 //! a flood over the vertices, which flips where it crosses a ring.
 
+mod circles;
 mod far;
 
 use crate::adjacency::{Adjacency, vertices_of_rows};
 use crate::delaunay::{Delaunay, NONE};
 use crate::edges::Edges;
 use crate::error::Result;
-use crate::exact::circumcenter::{Center, circumcenter};
-use crate::exact::filter::ROUNDING;
 use crate::exact::predicates::in_circle;
 use crate::forest::Forest;
 use crate::memory;
-use crate::parts::{all, in_parts, map, split};
-use crate::point::{Point, length, lexicographic, sub};
+use crate::parts::{all, each, in_parts, map, split};
+use crate::point::{Point, sub};
 use crate::progress::{PACE, Progress, Stage};
+use crate::rows::OfVertices;
 use crate::trace::trace_edges;
+use circles::Circles;
 pub use far::MedialAxis;
-use rayon::prelude::*;
 use std::cell::OnceCell;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
@@ -34,22 +34,25 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 pub fn medial_axis(delaunay: &Delaunay, edges: &Edges, progress: &Progress) -> Result<MedialAxis> {
     memory::check(delaunay.points().len(), BYTES)?;
     let curve = Adjacency::new(delaunay, edges);
-    let triangles = delaunay.triangles();
-    if triangles.is_empty() {
+    let first = delaunay.first_triangles();
+    if first.last() == Some(&0) {
         return Ok(of_line(delaunay, &curve));
     }
     let flips = flipping(delaunay, &curve, progress)?;
-    let vertices = delaunay.points().len();
-    // The triangles once; the vertices for ties, for steps to the left, for edges and in the order of the rows.
-    progress.enter(Stage::Axis, triangles.len() + 4 * vertices)?;
-    let wedges = delaunay.wedge_triangles();
-    let circle = |t: usize| Circle::new(delaunay, &triangles[t]);
-    let circles = map(triangles.len(), Circle::default(), progress, circle)?;
-    drop(triangles);
-    let mesh = Mesh { delaunay, circles: &circles, wedges: &wedges, curve: &curve, flips: &flips };
-    let centers = one_for_each_circle(&mesh, progress)?;
+    // The vertices for circles, for ties, for steps to the left, for edges and twice in the order of the rows.
+    progress.enter(Stage::Axis, 6 * delaunay.points().len())?;
+    let circles = Circles::new(delaunay, &first, progress)?;
+    let wedges = delaunay.wedge_triangles(&first);
+    drop(first);
+    let mesh = Mesh { delaunay, wedges: &wedges, curve: &curve, flips: &flips };
+    let centers = one_for_each_circle(&mesh, &circles, progress)?;
     let inside = inside(&mesh, progress)?;
-    let axis = collect(&mesh, &inside, &centers, progress)?;
+    let found = OfVertices::new(inside.len(), progress, |p, found| {
+        append(&mesh, p, inside[p as usize], &centers, found);
+    })?;
+    let rays = rays(&mesh, &centers);
+    drop((centers, wedges));
+    let axis = collect(delaunay, found, &rays, circles, progress)?;
     Ok(far::at_infinity(axis, place_of(delaunay)))
 }
 
@@ -68,8 +71,6 @@ const BYTES: usize = 432;
 /// The triangulation as stars, with curves in it.
 struct Mesh<'a> {
     delaunay: &'a Delaunay,
-    /// The circle through the corners of each triangle.
-    circles: &'a [Circle],
     /// The triangle to the left of each half-edge.
     wedges: &'a [u32],
     curve: &'a Adjacency,
@@ -85,29 +86,21 @@ impl Mesh<'_> {
         &self.wedges[start..start + count]
     }
 
-    /// The triangles to the left and to the right of half-edge `k` of the star of `p`.
-    fn sides(&self, p: u32, k: usize) -> Option<[u32; 2]> {
-        let triangles = self.triangles_at(p);
-        let right = if k > 0 { k - 1 } else { triangles.len() - 1 };
-        let sides = [triangles[k], triangles[right]];
-        (!sides.contains(&NONE)).then_some(sides)
-    }
-
     /// The pairs of triangles on both sides of edges from `p` to later vertices that are on one circle.
-    fn ties(&self, p: u32) -> impl Iterator<Item = [u32; 2]> {
-        let star = self.delaunay.star(p);
-        let later = (0..star.neighbors.len()).filter(move |&k| star.neighbors[k] > p);
-        later.filter_map(move |k| {
-            let sides = self.sides(p, k)?;
-            let [left, right] = sides.map(|t| &self.circles[t as usize]);
-            if left.differs(right) {
-                return None;
+    fn ties(&self, p: u32, circles: &Circles, ties: &mut Vec<[u32; 2]>) {
+        let (star, triangles) = (self.delaunay.star(p), self.triangles_at(p));
+        for (k, &q) in star.neighbors.iter().enumerate().filter(|&(_, &q)| q > p) {
+            let Some(sides) = sides(triangles, k) else { continue };
+            if circles.differ(sides[0], sides[1]) {
+                continue;
             }
-            let corners = [star.neighbors[k], p, star.left(k)?, star.right(k)?];
-            let [q, p, left, right] = corners.map(|v| self.delaunay.point(v));
+            let (Some(left), Some(right)) = (star.left(k), star.right(k)) else { continue };
+            let [q, p, left, right] = [q, p, left, right].map(|v| self.delaunay.point(v));
             // The far apex is never inside; with the orientation turned around, this says that it is not outside.
-            (!in_circle(q, p, left, right)).then_some(sides)
-        })
+            if !in_circle(q, p, left, right) {
+                ties.push(sides);
+            }
+        }
     }
 
     /// How many of the first `count` half-edges from `p` separate inside and outside?
@@ -117,6 +110,13 @@ impl Mesh<'_> {
             |&&(q, number): &&(u32, u32)| self.flips[number as usize] && first.contains(&q);
         self.curve.of(p).iter().filter(is_first).count()
     }
+}
+
+/// Of the triangles at a vertex those to the left and to the right of its half-edge `k`.
+fn sides(triangles: &[u32], k: usize) -> Option<[u32; 2]> {
+    let right = if k > 0 { k - 1 } else { triangles.len() - 1 };
+    let sides = [triangles[k], triangles[right]];
+    (!sides.contains(&NONE)).then_some(sides)
 }
 
 /// For each edge: does crossing it lead from the inside of a ring to its outside?
@@ -180,8 +180,11 @@ fn inside(mesh: &Mesh<'_>, progress: &Progress) -> Result<Vec<bool>> {
 /// Around a vertex the inside begins and ends at the edges that flip.
 fn step_left(mesh: &Mesh<'_>, v: u32) -> (u32, bool) {
     let star = mesh.delaunay.star(v);
-    let is_before =
-        |q: u32| lexicographic(&mesh.delaunay.point(q), &mesh.delaunay.point(v)).is_lt();
+    let at = mesh.delaunay.point(v);
+    let is_before = |q: u32| {
+        let [x, y] = mesh.delaunay.point(q);
+        x < at[0] || x == at[0] && y < at[1]
+    };
     let Some(k) = star.neighbors.iter().position(|&q| is_before(q)) else { return (NONE, false) };
     let q = star.neighbors[k];
     // What is to the left of v → q is to the right of q → v.
@@ -191,199 +194,153 @@ fn step_left(mesh: &Mesh<'_>, v: u32) -> (u32, bool) {
 }
 
 /// For each triangle, the first of those on its circle that it is connected with.
-fn one_for_each_circle(mesh: &Mesh<'_>, progress: &Progress) -> Result<Vec<u32>> {
+fn one_for_each_circle(
+    mesh: &Mesh<'_>,
+    circles: &Circles,
+    progress: &Progress,
+) -> Result<Vec<u32>> {
     let ties = in_parts(mesh.delaunay.points().len(), GRAIN, progress, |vertices| {
-        vertices.flat_map(|p| mesh.ties(p as u32)).collect::<Vec<_>>()
+        let mut ties = Vec::new();
+        vertices.for_each(|p| mesh.ties(p as u32, circles, &mut ties));
+        ties
     })?;
     if ties.iter().all(Vec::is_empty) {
-        return Ok((0..mesh.circles.len() as u32).collect());
+        return Ok((0..circles.radii.len() as u32).collect());
     }
-    let mut circles = Forest::new(mesh.circles.len());
+    let mut forest = Forest::new(circles.radii.len());
     for part in ties {
         for [a, b] in part {
-            circles.join(a, b);
+            forest.join(a, b);
         }
         progress.advance(0)?;
     }
-    Ok(circles.into_roots())
+    Ok(forest.into_roots())
 }
 
-/// An edge of the axis: its samples as rows, the triangles to their left and right, and whether it is inside.
-type Found = ([u32; 2], [u32; 2], bool);
-
-/// Vertices, or rows, that one task takes at a time.
+/// Vertices that one task takes at a time.
 const GRAIN: usize = 1 << 13;
 
-/// The edges of the axis between each of `GRAIN` successive vertices and later rows, sorted by these.
+/// An edge of the axis: its samples as rows, the vertices to their left and right, and whether it is inside.
+type Found = ([u32; 2], [u32; 2], bool);
+
+/// Append the edges of the axis between `p` and later rows, sorted by these, with triangles as their vertices.
 ///
-/// Vertices are near each other in memory where they are in the plane; rows need not be.
-#[derive(Default)]
-struct Part {
-    found: Vec<Found>,
-    /// Where those of each vertex end.
-    ends: Vec<u32>,
-}
-
-impl Part {
-    fn new(mesh: &Mesh<'_>, first: usize, inside: &[bool], centers: &[u32]) -> Self {
-        let mut part = Self::default();
-        for (k, &inner) in inside.iter().enumerate() {
-            let start = part.found.len();
-            part.extend((first + k) as u32, mesh, inner, centers);
-            part.found[start..].sort_unstable_by_key(|&(samples, _, _)| samples);
-            part.ends.push(part.found.len() as u32);
+/// `inner` tells whether the place to the right of the first half-edge from `p` is inside.
+fn append(mesh: &Mesh<'_>, p: u32, mut inner: bool, centers: &[u32], found: &mut Vec<Found>) {
+    let (rows, triangles, start) = (mesh.delaunay.rows(), mesh.triangles_at(p), found.len());
+    for (k, &q) in mesh.delaunay.star(p).neighbors.iter().enumerate() {
+        if let Some(number) = mesh.curve.edge(p, q) {
+            inner ^= mesh.flips[number as usize];
+            continue;
         }
-        part
-    }
-
-    /// `inner` tells whether the place to the right of the first half-edge from `p` is inside.
-    fn extend(&mut self, p: u32, mesh: &Mesh<'_>, mut inner: bool, centers: &[u32]) {
-        let rows = mesh.delaunay.rows();
-        for (k, &q) in mesh.delaunay.star(p).neighbors.iter().enumerate() {
-            if let Some(number) = mesh.curve.edge(p, q) {
-                inner ^= mesh.flips[number as usize];
-                continue;
-            }
-            let samples = [p, q].map(|vertex| rows[vertex as usize]);
-            let Some(sides) = mesh.sides(p, k).filter(|_| samples[0] < samples[1]) else {
-                continue;
-            };
-            let sides = sides.map(|t| centers[t as usize]);
-            if sides[0] != sides[1] {
-                self.found.push((samples, sides, inner));
-            }
+        let samples = [p, q].map(|vertex| rows[vertex as usize]);
+        if samples[0] > samples[1] {
+            continue;
+        }
+        let Some(sides) = sides(triangles, k) else { continue };
+        let sides = sides.map(|t| centers[t as usize]);
+        if sides[0] != sides[1] {
+            found.push((samples, sides, inner));
         }
     }
-
-    /// The edges of its vertex number `k`.
-    fn of(&self, k: usize) -> &[Found] {
-        let start = if k > 0 { self.ends[k - 1] } else { 0 };
-        &self.found[start as usize..self.ends[k] as usize]
-    }
+    found[start..].sort_unstable_by_key(|&(samples, _, _)| samples);
 }
 
+/// The axis of what was `found` and of `rays`.
 fn collect(
-    mesh: &Mesh<'_>,
-    inside: &[bool],
-    centers: &[u32],
+    delaunay: &Delaunay,
+    mut found: OfVertices<Found>,
+    rays: &[Ray],
+    circles: Circles,
     progress: &Progress,
 ) -> Result<MedialAxis> {
-    let parts = in_parts(inside.len(), GRAIN, progress, |vertices| {
-        Part::new(mesh, vertices.start, &inside[vertices], centers)
-    })?;
-    let rays = rays(mesh);
-    let origins: Vec<u32> =
-        rays.iter().map(|&(_, p, _)| centers[mesh.triangles_at(p)[0] as usize]).collect();
-    let (used, number) = numbers(mesh.circles.len(), &parts, &origins);
-    let scale = mesh.delaunay.scale();
-    let circle = |&t: &u32| &mesh.circles[t as usize];
-    let vertices = used.par_iter().map(|t| circle(t).center.map(|x| x / scale)).collect();
-    let radii = used.par_iter().map(|t| circle(t).radius / scale).collect();
-    let found = by_rows(mesh.delaunay, &parts, progress)?;
-    let axis = MedialAxis {
+    let (used, number) = numbers(circles.radii.len(), &found, rays);
+    progress.advance(0)?;
+    each(found.parts_mut(), |_, part| {
+        for (_, sides, _) in part {
+            *sides = sides.map(|t| number[t as usize]);
+        }
+    });
+    let ray_origins = rays.iter().map(|ray| number[ray.origin as usize]).collect();
+    drop(number);
+    let (vertices, radii) = circles.used(&used, delaunay.scale());
+    let count = found.parts().iter().map(|part| part.len()).sum();
+    let (mut edges, mut samples) = (vec![[0; 2]; count], vec![[0; 2]; count]);
+    let mut inner = vec![false; count];
+    found.by_rows(
+        delaunay,
+        progress,
+        |counts| {
+            let lengths = || counts.iter().copied();
+            let ends = split(&mut edges, lengths()).into_iter().zip(split(&mut samples, lengths()));
+            ends.zip(split(&mut inner, lengths())).collect()
+        },
+        |((edges, samples), inner), found| {
+            found.iter().zip(edges).for_each(|(found, edge)| *edge = found.1);
+            found.iter().zip(samples).for_each(|(found, pair)| *pair = found.0);
+            found.iter().zip(inner).for_each(|(found, is_inner)| *is_inner = found.2);
+        },
+    )?;
+    Ok(MedialAxis {
         vertices,
         radii,
-        edges: column(&found, |&(_, sides, _)| sides.map(|t| number[t as usize])),
-        samples: column(&found, |&(samples, _, _)| samples),
-        inner: column(&found, |&(_, _, inner)| inner),
-        ray_origins: origins.iter().map(|&t| number[t as usize]).collect(),
-        ray_directions: rays.iter().map(|&(_, p, q)| outward(mesh.delaunay, (p, q))).collect(),
-        ray_samples: rays.iter().map(|&(samples, _, _)| samples).collect(),
-    };
-    progress.advance(0)?;
-    Ok(axis)
+        edges,
+        samples,
+        inner,
+        ray_origins,
+        ray_directions: rays.iter().map(|ray| outward(delaunay, ray.side)).collect(),
+        ray_samples: rays.iter().map(|ray| ray.samples).collect(),
+    })
 }
 
-/// The edges of the hull that are not selected: rows, sorted, and vertices, counter-clockwise.
-fn rays(mesh: &Mesh<'_>) -> Vec<([u32; 2], u32, u32)> {
+/// An edge of the hull that is not selected.
+struct Ray {
+    /// Its ends as rows.
+    samples: [u32; 2],
+    /// Its ends as vertices, counter-clockwise.
+    side: (u32, u32),
+    /// The triangle at it.
+    origin: u32,
+}
+
+/// The rays, sorted by their samples; their origins are one for each circle.
+fn rays(mesh: &Mesh<'_>, centers: &[u32]) -> Vec<Ray> {
     let delaunay = mesh.delaunay;
     let hull = delaunay.hull().iter().map(|&p| (p, delaunay.star(p).neighbors[0]));
     let mut rays: Vec<_> = hull
         .filter(|&(p, q)| mesh.curve.edge(p, q).is_none())
-        .map(|(p, q)| (crate::edges::rows(delaunay, p, q), p, q))
+        .map(|(p, q)| Ray {
+            samples: crate::edges::rows(delaunay, p, q),
+            side: (p, q),
+            origin: centers[mesh.triangles_at(p)[0] as usize],
+        })
         .collect();
-    rays.sort_unstable();
+    rays.sort_unstable_by_key(|ray| (ray.samples, ray.side));
     rays
 }
 
-/// The triangles whose centers are vertices of the axis, sorted, and for each triangle its number among them.
-fn numbers(triangles: usize, parts: &[Part], origins: &[u32]) -> (Vec<u32>, Vec<u32>) {
-    let is_used: Vec<AtomicBool> =
-        (0..triangles).into_par_iter().map(|_| AtomicBool::new(false)).collect();
+/// Which triangles' centers are vertices of the axis, and for each triangle its number among them.
+fn numbers(triangles: usize, found: &OfVertices<Found>, rays: &[Ray]) -> (Vec<bool>, Vec<u32>) {
+    let mut is_used = Vec::new();
+    is_used.resize_with(triangles, || AtomicBool::new(false));
     let mark = |t: u32| is_used[t as usize].store(true, Relaxed);
-    let found = parts.par_iter().flat_map_iter(|part| &part.found);
-    found.for_each(|&(_, sides, _)| sides.into_iter().for_each(mark));
-    origins.iter().copied().for_each(mark);
-    let (mut used, mut number) = (Vec::new(), Vec::with_capacity(triangles));
-    for (t, is_used) in is_used.into_iter().enumerate() {
-        number.push(used.len() as u32);
-        if is_used.into_inner() {
-            used.push(t as u32);
+    each(found.parts(), |_, part| {
+        for &(_, [left, right], _) in part {
+            mark(left);
+            mark(right);
         }
-    }
-    (used, number)
-}
-
-/// All edges of the axis, sorted by their samples, those of `GRAIN` successive rows at a time.
-fn by_rows(delaunay: &Delaunay, parts: &[Part], progress: &Progress) -> Result<Vec<Vec<Found>>> {
-    let mut vertex = vertices_of_rows(delaunay);
-    for &[row, _] in delaunay.duplicates() {
-        vertex[row as usize] = NONE;
-    }
-    let of_rows = |vertices: &[u32]| {
-        let mut found = Vec::with_capacity(3 * vertices.len());
-        for v in vertices.iter().map(|&v| v as usize).filter(|&v| v != NONE as usize) {
-            found.extend_from_slice(parts[v / GRAIN].of(v % GRAIN));
-        }
-        found
-    };
-    in_parts(vertex.len(), GRAIN, progress, |rows| of_rows(&vertex[rows]))
-}
-
-/// A field of all edges of the axis.
-fn column<T: Copy + Default + Send>(
-    found: &[Vec<Found>],
-    field: impl Fn(&Found) -> T + Sync,
-) -> Vec<T> {
-    let mut column = vec![T::default(); found.iter().map(Vec::len).sum()];
-    let targets = split(&mut column, found.iter().map(Vec::len));
-    found.par_iter().zip(targets).for_each(|(part, target)| {
-        part.iter().zip(target).for_each(|(found, value)| *value = field(found));
     });
-    column
-}
-
-/// The circle through the corners of a triangle, in the scale of the triangulation.
-#[derive(Debug, Clone, Copy, Default)]
-struct Circle {
-    center: Point,
-    radius: f64,
-    /// A bound on the distance from the center to the true one.
-    error: f64,
-}
-
-/// Where a center is known to this part of its radius, floating point is good enough.
-///
-/// A flat triangle's center depends on the rounding of the samples themselves by more than this.
-const ACCURACY: f64 = 1e-7;
-
-impl Circle {
-    fn new(delaunay: &Delaunay, triangle: &[u32; 3]) -> Self {
-        let corners = triangle.map(|vertex| delaunay.point(vertex));
-        let Center { at, error } = Center::estimate(corners, corners[0]);
-        let is_known = error <= ACCURACY * length(at);
-        let from = if is_known { at } else { circumcenter(corners) };
-        let center = [corners[0][0] + from[0], corners[0][1] + from[1]];
-        let rounding = ROUNDING * (center[0].abs() + center[1].abs());
-        let error = if is_known { error + rounding } else { f64::INFINITY };
-        Self { center, radius: length(from), error }
+    for ray in rays {
+        mark(ray.origin);
     }
-
-    /// Are the centers certainly not the same?
-    fn differs(&self, other: &Self) -> bool {
-        let step = sub(self.center, other.center);
-        step[0].abs().max(step[1].abs()) > 1.001 * (self.error + other.error)
-    }
+    let used: Vec<bool> = is_used.into_iter().map(AtomicBool::into_inner).collect();
+    let mut before = 0;
+    let number = |&is_used: &bool| {
+        before += u32::from(is_used);
+        before - u32::from(is_used)
+    };
+    let numbers = used.iter().map(number).collect();
+    (used, numbers)
 }
 
 /// The unit normal to the right of p → q.

@@ -122,7 +122,7 @@ fn calls<'a>(points: &'a [Point], delaunay: &'a Delaunay, edges: &'a Edges) -> V
         "certify",
         Box::new(move |p: &Progress| {
             let interpolant = Interpolant::new(delaunay, edges, p)?;
-            certify::measure(delaunay, edges, &interpolant, p).map(|_| ())
+            certify::ratios(delaunay, edges, &interpolant, p).map(|_| ())
         }),
     ));
     calls.push((

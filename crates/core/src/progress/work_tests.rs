@@ -120,7 +120,7 @@ fn works(points: &[Point]) -> Vec<(&'static str, usize)> {
     measure("medial axis", &|| drop(medial_axis::medial_axis(&delaunay, &edges, &quiet)));
     measure("certificate", &|| {
         let interpolant = Interpolant::new(&delaunay, &edges, &quiet).expect("no one cancels");
-        certify::measure(&delaunay, &edges, &interpolant, &quiet).expect("no one cancels");
+        certify::ratios(&delaunay, &edges, &interpolant, &quiet).expect("no one cancels");
         let curve = Adjacency::new(&delaunay, &edges);
         methods::is_beta_skeleton(&delaunay, 1.7, &curve, &quiet).expect("no one cancels");
     });
