@@ -8,13 +8,13 @@ use crate::memory;
 use crate::parts::map;
 use crate::point::{Point, length};
 use crate::progress::Progress;
-use crate::space::bounds::Bounds;
-use crate::space::boxes::Boxes;
 use crate::space::halves::halve;
-use crate::space::oriented::{Oriented, Seen};
+use crate::space::oriented::Place;
+use crate::space::region::Region;
+use crate::space::strips::Strips;
 
 /// Memory for each triangle.
-const BYTES: usize = 64;
+const BYTES: usize = 128;
 
 /// A center is solved for where floating point leaves more than this part of its radius uncertain.
 const UNCERTAIN: f64 = 1e-9;
@@ -22,10 +22,10 @@ const UNCERTAIN: f64 = 1e-9;
 /// The Voronoi vertices as triangles, in boxes.
 #[derive(Debug)]
 pub struct VoronoiVertices {
-    /// For each triangle a box around its circumcenter, hardly larger than that.
-    places: Vec<(Bounds, [u32; 3])>,
+    /// Where the circumcenter is, hardly in doubt, of each triangle.
+    vertices: Vec<(Place, [u32; 3])>,
     /// Vertices on a curve are met by disks that touch it, so boxes lie along them.
-    boxes: Boxes<Oriented>,
+    strips: Strips,
 }
 
 impl VoronoiVertices {
@@ -37,76 +37,111 @@ impl VoronoiVertices {
         let triangles = delaunay.triangles();
         memory::check(triangles.len(), BYTES)?;
         let corners = |t: usize| triangles[t].map(|vertex| delaunay.point(vertex));
-        let place = |t: usize| {
+        let quiet = progress.quiet();
+        let places = map(triangles.len(), Place::default(), &quiet, |t| {
             #[cfg(test)]
             crate::progress::work_tests::count(crate::progress::work_tests::PLACE);
-            (around(corners(t)), triangles[t])
+            place(corners(t))
+        })?;
+        let key = |t: usize| (places[t].at, t as u32);
+        // Less to move than all that is known of each.
+        let mut order = map(triangles.len(), Default::default(), &quiet, key)?;
+        halve(&mut order, |&(at, _)| at, progress)?;
+        let vertex = |k: usize| {
+            let t = order[k].1 as usize;
+            (places[t], triangles[t])
         };
-        let empty = (Bounds::EMPTY, [0; 3]);
-        let mut places = map(triangles.len(), empty, &progress.quiet(), place)?;
-        halve(&mut places, |(bounds, _)| bounds.low, progress)?;
-        let boxes = Boxes::oriented(&places, |&(bounds, _)| bounds);
-        Ok(Self { places, boxes })
+        let vertices = map(triangles.len(), Default::default(), &quiet, vertex)?;
+        let strips = Strips::new(&vertices, |&(place, _)| place);
+        Ok(Self { vertices, strips })
     }
 
-    /// The triangle of a vertex that `holds`, if there is one among those in boxes, seen from `p`, that `may_meet` admits.
+    /// For each of `regions`, the triangle of a vertex that it `holds`, if there is one.
     pub fn find(
         &self,
-        p: Point,
-        may_meet: impl Fn(&Seen) -> bool,
-        holds: impl Fn([u32; 3]) -> bool,
-    ) -> Option<[u32; 3]> {
-        let mut found = None;
-        self.boxes.any(&mut |around, _| may_meet(&around.seen_from(p)), &mut |number| {
+        regions: &[Region],
+        holds: impl Fn(usize, [u32; 3]) -> bool,
+    ) -> Vec<Option<[u32; 3]>> {
+        let mut found = vec![None; regions.len()];
+        self.strips.search(regions, |number, item| {
             #[cfg(test)]
             crate::progress::work_tests::count(crate::progress::work_tests::BOX);
-            let (bounds, triangle) = self.places[number as usize];
-            found = (may_meet(&bounds.seen_from(p).into()) && holds(triangle)).then_some(triangle);
-            found.is_some()
+            let (number, (place, triangle)) = (number as usize, self.vertices[item as usize]);
+            let region = &regions[number];
+            let may_hold = region.span(&place.seen_from(region.p)).is_some();
+            let is_in = may_hold && holds(number, triangle);
+            if is_in {
+                found[number] = Some(triangle);
+            }
+            is_in
         });
         found
     }
 }
 
-/// A box around the circumcenter of a counter-clockwise triangle.
-fn around(corners: [Point; 3]) -> Bounds {
+/// Where the circumcenter of a counter-clockwise triangle is.
+fn place(corners: [Point; 3]) -> Place {
     let Center { at, error } = Center::estimate(corners, corners[0]);
     let is_known = error <= UNCERTAIN * length(at);
     let at = if is_known { at } else { circumcenter(corners) };
     let error = if is_known { error } else { UNCERTAIN * length(at) };
     let center = [corners[0][0] + at[0], corners[0][1] + at[1]];
     if !center.iter().all(|x| x.is_finite()) {
-        return Bounds { low: [f64::NEG_INFINITY; 2], high: [f64::INFINITY; 2] };
+        return Place { at: [0.0; 2], doubt: f64::INFINITY };
     }
-    let doubt = error + 2.0 * ROUNDING * (center[0].abs() + center[1].abs());
-    Bounds { low: center.map(|x| x - doubt), high: center.map(|x| x + doubt) }
+    Place { at: center, doubt: error + 4.0 * ROUNDING * (center[0].abs() + center[1].abs()) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::space::oriented::CORNERS;
+    use crate::point::{dot, sub};
     use std::cell::Cell;
 
+    fn centers(delaunay: &Delaunay) -> Vec<([u32; 3], Point)> {
+        let center = |triangle: [u32; 3]| {
+            let corners = triangle.map(|vertex| delaunay.point(vertex));
+            let from = circumcenter(corners);
+            (triangle, [corners[0][0] + from[0], corners[0][1] + from[1]])
+        };
+        delaunay.triangles().into_iter().map(center).collect()
+    }
+
     #[test]
-    fn each_vertex_is_found_in_its_own_box() {
+    fn a_vertex_is_found_in_each_disk_that_holds_one_and_each_is_in_a_small_disk_around_it() {
         let points: Vec<Point> = (0..1000_u32)
             .map(|k| [f64::from(k * 7919 % 1009), f64::from(k * 104_729 % 1013)])
             .collect();
         let progress = Progress::default();
         let delaunay = Delaunay::new(&points, &progress).expect("points");
         let vertices = VoronoiVertices::new(&delaunay, &progress).expect("memory");
-        for triangle in delaunay.triangles() {
-            let corners = triangle.map(|vertex| delaunay.point(vertex));
-            let center = circumcenter(corners);
-            let center = [corners[0][0] + center[0], corners[0][1] + center[1]];
-            let looked = Cell::new(0);
-            let may_meet = |seen: &Seen| {
-                looked.set(looked.get() + 1);
-                seen.bounds.square_to([0.0; 2]) <= (CORNERS * seen.reach).powi(2)
+        let centers = centers(&delaunay);
+        let regions: Vec<Region> = centers
+            .iter()
+            .map(|(_, [x, y])| Region::new([x - 1e-6, *y], [1e-6, 0.0], 1e-6, 1e-9 * x.abs()))
+            .collect();
+        let looked = Cell::new(0);
+        let found = vertices.find(&regions, |k, other| {
+            looked.set(looked.get() + 1);
+            other == centers[k].0
+        });
+        assert!(found.iter().zip(&centers).all(|(found, (own, _))| *found == Some(*own)));
+        assert!(looked.get() < 2 * centers.len());
+        for radius in [0.1, 10.0, 300.0, 1e5] {
+            let disk = |k: usize| (points[k], [radius * 0.6, radius * 0.8]);
+            let is_in = |k: usize, place: Point| {
+                let (p, center) = disk(k);
+                let from = sub(sub(place, p), center);
+                dot(from, from) < radius * radius
             };
-            assert_eq!(vertices.find(center, may_meet, |other| other == triangle), Some(triangle));
-            assert!(looked.get() < 200);
+            let regions: Vec<Region> = (0..300)
+                .map(|k| Region::new(disk(k).0, disk(k).1, radius, 1e-12 * radius))
+                .collect();
+            let place = |triangle| centers.iter().find(|(t, _)| *t == triangle).expect("one").1;
+            let found = vertices.find(&regions, |k, triangle| is_in(k, place(triangle)));
+            for (k, found) in found.into_iter().enumerate() {
+                assert_eq!(found.is_some(), centers.iter().any(|(_, place)| is_in(k, *place)));
+            }
         }
     }
 }

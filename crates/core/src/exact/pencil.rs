@@ -10,7 +10,7 @@ use crate::exact::double_double::DoubleDouble;
 use crate::exact::filter::{Approximate, ROUNDING, UNDERFLOW};
 use crate::exact::predicates::in_circle;
 use crate::exact::sign::{self, Form, Number};
-use crate::point::{Point, cross, dot, length, sub, turned};
+use crate::point::{Point, cross, dot, length, sub};
 use std::cell::OnceCell;
 use std::cmp::Ordering::{self, Equal, Greater, Less};
 
@@ -73,32 +73,6 @@ pub struct Disk {
     pub radius: f64,
     /// A bound on the error of the center, and of the radius.
     pub error: f64,
-}
-
-impl Disk {
-    /// May the disk meet a rectangle between two corners relative to p, in the frame of a direction? False only if they are certainly
-    /// apart.
-    ///
-    /// The coordinates of no place in it sum to more than `reach`, and the corners are off by up to `off` times that. With c the center, v
-    /// is outside where v·(v − 2 c) > 0: a sum of a term in each coordinate, each least nearest to the center. It is off by 2 |v| for
-    /// each unit that c is off, so even for a large disk it is known to a small part of |v|.
-    #[inline]
-    #[must_use]
-    pub fn may_meet(&self, along: Point, [low, high]: [Point; 2], reach: f64, off: f64) -> bool {
-        let center = turned(along, self.center);
-        let term = |axis: usize| {
-            let nearest = center[axis].max(low[axis]).min(high[axis]);
-            nearest * (nearest - 2.0 * center[axis])
-        };
-        // The circle goes through p, so the coordinates of its center sum to at most √2 times the radius.
-        let size = 1.5 * self.radius;
-        let of_center = self.error + 8.0 * ROUNDING * size;
-        let of_place = (2.1 * off + 16.0 * ROUNDING) * (reach + 2.0 * size);
-        let doubt = reach * (2.0 * of_center + of_place) + UNDERFLOW;
-        // An unknown (not a number) meets.
-        let is_apart = term(0) + term(1) > doubt;
-        !is_apart
-    }
 }
 
 impl Pencil {

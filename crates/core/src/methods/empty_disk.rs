@@ -1,8 +1,8 @@
 //! The disk that shows why an edge is in the crust, for pictures.
 
-use super::crust::{Outcome, Verdict, find_disk};
 use super::one_step_crust;
-use super::visit::{TooLong, Visit};
+use super::search::{Verdict, find_disk, find_disks};
+use super::visit::Visit;
 use crate::adjacency::vertices_of_rows;
 use crate::delaunay::{Delaunay, Edge};
 use crate::exact::pencil::{Circle, Pencil};
@@ -18,19 +18,24 @@ pub fn empty_disk(delaunay: &Delaunay, rows: [u32; 2]) -> Option<(Point, f64)> {
     if !one_step_crust::is_in(delaunay, edge) {
         return None;
     }
-    let verdict = find_disk(delaunay, edge, &mut Visit::limited());
-    let Ok(Verdict::In(circle)) = verdict.or_else(|TooLong| find_by_place(delaunay, edge)) else {
-        return None;
-    };
-    Some(unscaled(delaunay, edge, circle))
+    let verdict = find_disk(delaunay, edge, &mut Visit::limited()).ok();
+    match verdict.or_else(|| find_by_place(delaunay, edge)) {
+        Some(Verdict::In(circle)) => Some(unscaled(delaunay, edge, circle)),
+        _ => None,
+    }
 }
 
 /// The search where the disk meets very many cells; by a walk all the same, if there is no memory for the index.
 #[cold]
-fn find_by_place(delaunay: &Delaunay, edge: Edge) -> Outcome {
-    let index = VoronoiVertices::new(delaunay, &Progress::default()).ok();
-    let mut visit = index.as_ref().map_or_else(Visit::default, Visit::with_index);
-    find_disk(delaunay, edge, &mut visit)
+fn find_by_place(delaunay: &Delaunay, edge: Edge) -> Option<Verdict> {
+    match VoronoiVertices::new(delaunay, &Progress::default()) {
+        Ok(index) => {
+            let mut found = None;
+            find_disks(delaunay, &[edge], &index, |_, verdict| found = Some(*verdict));
+            found
+        }
+        Err(_) => find_disk(delaunay, edge, &mut Visit::default()).ok(),
+    }
 }
 
 /// The edge of the triangulation between two rows.

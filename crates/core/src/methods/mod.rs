@@ -23,13 +23,14 @@ mod one_step_crust;
 mod peel;
 mod rcgh;
 mod relative_neighborhood;
+mod search;
 mod sig_delaunay;
 mod visit;
 
 pub(crate) use crossing_angle::Crossing;
-pub(crate) use crust::{Verdict, find_disk};
 pub(crate) use gamma_graph::has_angles;
 pub(crate) use one_step_crust::is_in as is_in_one_step_crust;
+pub(crate) use search::{Verdict, find_disk};
 pub(crate) use visit::Visit;
 
 pub use a_shape::a_shape;

@@ -4,14 +4,11 @@ use crate::delaunay::{Delaunay, Edge};
 use crate::exact::filter::UNDERFLOW;
 use crate::exact::pencil::{Disk, Pencil, Vertex};
 use crate::point::{Point, cross, dot, sub};
-use crate::space::bounds::Bounds;
-use crate::space::oriented::{CORNERS, Seen};
-use crate::voronoi::VoronoiVertices;
 use std::collections::HashSet;
 
-/// A search for a Voronoi vertex inside a disk: a walk over the cells that meet it, and its memory, or a look at an index.
+/// A search for a Voronoi vertex inside a disk: a walk over the cells that meet it, and its memory.
 #[derive(Default)]
-pub struct Visit<'a> {
+pub struct Visit {
     cells: Vec<u32>,
     many: HashSet<u32>,
     /// How many cells more than usual the walks to come may pass, if that is limited.
@@ -19,8 +16,6 @@ pub struct Visit<'a> {
     /// How many searches have been given up since the last walk, and how many are before another walk is tried.
     given_up: usize,
     patience: usize,
-    /// What is looked at instead.
-    index: Option<&'a VoronoiVertices>,
 }
 
 /// A walk was given up.
@@ -33,35 +28,14 @@ const FEW: usize = 24;
 /// Cells that a walk may always pass.
 const USUAL: usize = 4;
 /// Cells beyond that, for one walk or for many.
-const ALLOWANCE: usize = 1 << 11;
+const ALLOWANCE: usize = 1 << 10;
 /// With fewer cells left a search is given up before it begins.
 const LEAST: usize = 16;
 
-/// A Voronoi vertex strictly inside `disk`, if there is one.
-#[cold]
-fn find_by_place(
-    delaunay: &Delaunay,
-    index: &VoronoiVertices,
-    pencil: &Pencil,
-    disk: &Disk,
-) -> Option<Vertex> {
-    let vertex = |triangle: [u32; 3]| pencil.vertex(triangle.map(|corner| delaunay.point(corner)));
-    let may_meet = |&Seen { along, bounds: Bounds { low, high }, reach }: &Seen| {
-        disk.may_meet(along, [low, high], reach, CORNERS)
-    };
-    let holds = |triangle| pencil.holds(disk, &vertex(triangle));
-    index.find(pencil.p, may_meet, holds).map(vertex)
-}
-
-impl<'a> Visit<'a> {
+impl Visit {
     /// One whose walks are given up where they pass more cells than pays.
     pub fn limited() -> Self {
         Self { allowance: Some(ALLOWANCE), patience: LEAST, ..Self::default() }
-    }
-
-    /// One that does not walk.
-    pub fn with_index(index: &'a VoronoiVertices) -> Self {
-        Self { index: Some(index), ..Self::default() }
     }
 
     /// To be asked before the search for the disk of an edge: is there an allowance for it?
@@ -82,22 +56,10 @@ impl<'a> Visit<'a> {
     }
 
     /// A Voronoi vertex strictly inside `disk`, if there is one.
-    pub fn find(
-        &mut self,
-        delaunay: &Delaunay,
-        edge: Edge,
-        pencil: &Pencil,
-        disk: &Disk,
-    ) -> Result<Option<Vertex>, TooLong> {
-        match self.index {
-            Some(index) => Ok(find_by_place(delaunay, index, pencil, disk)),
-            None => self.walk(delaunay, edge, pencil, disk),
-        }
-    }
-
+    ///
     /// Visits the cells of p and q and crosses each Voronoi edge that may meet the disk. The disk is connected, so this
     /// reaches every cell that meets it, and with them every Voronoi vertex inside.
-    fn walk(
+    pub fn find(
         &mut self,
         delaunay: &Delaunay,
         edge: Edge,

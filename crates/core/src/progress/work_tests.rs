@@ -156,9 +156,12 @@ fn nearly_degenerate_points_take_at_most_ten_times_the_work() {
 /// What the crust does for a point of a well sampled curve.
 const LEAST_CRUST: usize = 130;
 
+/// How many times as much the crust of concentric circles may take: five times, and seven where each disk is looked up by itself.
+const MOST_OF_CIRCLES: usize = 6;
+
 /// The farther apart the circles are for their spacing, the less the crust in general position has to do, so this shows at many points.
 #[test]
-fn the_crust_of_many_points_on_concentric_circles_takes_at_most_ten_times_the_work() {
+fn the_crust_of_many_points_on_concentric_circles_takes_at_most_six_times_the_work() {
     const MANY: usize = 30_000;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     let work = |d: f64| {
@@ -173,8 +176,7 @@ fn the_crust_of_many_points_on_concentric_circles_takes_at_most_ten_times_the_wo
         let general = work(1e-2);
         for d in [1e-10, 1e-8, 1e-6] {
             let work = work(d);
-            println!("{d:e}: {work} over {general}");
-            assert!(work <= MOST * general, "{d:e}: {work} over {general}");
+            assert!(work <= MOST_OF_CIRCLES * general, "{d:e}: {work} over {general}");
         }
     });
 }

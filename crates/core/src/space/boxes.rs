@@ -4,7 +4,6 @@
 //! those of successive numbers lie close together, and a node is a range of items and the box around them. Linear time.
 
 use crate::space::bounds::Bounds;
-use crate::space::oriented::Oriented;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -12,33 +11,11 @@ use std::ops::Range;
 pub(super) const FAN: usize = 8;
 
 /// The hierarchy.
-#[derive(Debug)]
-pub struct Boxes<B = Bounds> {
+#[derive(Debug, Default)]
+pub struct Boxes {
     items: u32,
     /// The leaves first, a single root last; empty without items.
-    levels: Vec<Vec<B>>,
-}
-
-impl Default for Boxes {
-    fn default() -> Self {
-        Self { items: 0, levels: Vec::new() }
-    }
-}
-
-impl Boxes<Oriented> {
-    /// The boxes around `items`, each along its own.
-    #[must_use]
-    pub fn oriented<T: Sync>(items: &[T], around: impl Fn(&T) -> Bounds + Sync) -> Self {
-        let leaf = |items: &[T]| Oriented::around(items.iter().map(&around));
-        let mut levels: Vec<Vec<Oriented>> = vec![items.par_chunks(FAN).map(leaf).collect()];
-        while let Some(below) = levels.last().filter(|level| level.len() > 1) {
-            let items = items.par_chunks(FAN.pow(levels.len() as u32 + 1));
-            let node =
-                |(nodes, items): (&[_], &[T])| Oriented::over(nodes, items.iter().map(&around));
-            levels.push(below.par_chunks(FAN).zip(items).map(node).collect());
-        }
-        Self { items: items.len() as u32, levels }
-    }
+    levels: Vec<Vec<Bounds>>,
 }
 
 impl Boxes {
@@ -53,9 +30,7 @@ impl Boxes {
         }
         Self { items: items.len() as u32, levels }
     }
-}
 
-impl<B> Boxes<B> {
     /// The number of levels.
     #[must_use]
     pub fn height(&self) -> usize {
@@ -65,7 +40,7 @@ impl<B> Boxes<B> {
     /// The boxes of a level; level 0 are the leaves.
     #[inline]
     #[must_use]
-    pub fn level(&self, level: usize) -> &[B] {
+    pub fn level(&self, level: usize) -> &[Bounds] {
         &self.levels[level]
     }
 
@@ -83,7 +58,7 @@ impl<B> Boxes<B> {
     /// `enter` sees a box and the range of its items.
     pub fn any(
         &self,
-        enter: &mut impl FnMut(&B, Range<u32>) -> bool,
+        enter: &mut impl FnMut(&Bounds, Range<u32>) -> bool,
         visit: &mut impl FnMut(u32) -> bool,
     ) -> bool {
         self.items > 0 && self.any_below(self.levels.len() - 1, 0, enter, visit)
@@ -93,7 +68,7 @@ impl<B> Boxes<B> {
         &self,
         level: usize,
         node: u32,
-        enter: &mut impl FnMut(&B, Range<u32>) -> bool,
+        enter: &mut impl FnMut(&Bounds, Range<u32>) -> bool,
         visit: &mut impl FnMut(u32) -> bool,
     ) -> bool {
         #[cfg(test)]

@@ -11,6 +11,9 @@ use crate::progress::Progress;
 /// Items below which a half is no task of its own.
 const GRAIN: usize = 1 << 12;
 
+/// Items that tell which way the others extend.
+const SAMPLE: usize = 64;
+
 /// Put `items` into such an order, one in which the nodes of [`Boxes`](super::boxes::Boxes) are halves or rows of them. O(n log n).
 ///
 /// # Errors
@@ -23,8 +26,8 @@ pub fn halve<T: Send>(
     if items.len() <= FAN {
         return Ok(());
     }
-    let around =
-        items.iter().fold(Bounds::EMPTY, |bounds, item| bounds.join(Bounds::at(place(item))));
+    let some = items.iter().step_by(items.len() / SAMPLE + 1);
+    let around = some.fold(Bounds::EMPTY, |bounds, item| bounds.join(Bounds::at(place(item))));
     let [width, height] = [0, 1].map(|axis| around.high[axis] - around.low[axis]);
     let axis = usize::from(height > width);
     let middle = middle(items.len());

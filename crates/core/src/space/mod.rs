@@ -5,5 +5,7 @@ pub mod boxes;
 pub mod halves;
 pub mod order;
 pub mod oriented;
+pub mod region;
 pub mod segment;
+pub mod strips;
 pub mod tree;

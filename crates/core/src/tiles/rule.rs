@@ -73,10 +73,10 @@ pub trait Work {
 pub struct Crust;
 
 impl Rule for Crust {
-    type Memory = Visit<'static>;
+    type Memory = Visit;
 
     /// In by a disk: final once all of its influence is seen. Out by Voronoi vertices: once each is seen to be one.
-    fn find(&self, delaunay: &Delaunay, edge: Edge, visit: &mut Visit<'static>) -> Finding {
+    fn find(&self, delaunay: &Delaunay, edge: Edge, visit: &mut Visit) -> Finding {
         if !is_in_one_step_crust(delaunay, edge) {
             return Finding::OUT;
         }

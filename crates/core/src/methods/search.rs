@@ -1,0 +1,234 @@
+//! The search for the disk that shows an edge to be in the crust: the smallest first; each Voronoi vertex found inside rules out a part
+//! of the pencil. The few Voronoi cells that the disk meets are visited; where they are many, all vertices are looked up by place.
+
+use super::visit::{TooLong, Visit};
+use crate::delaunay::{Delaunay, Edge};
+use crate::exact::angle::Angle;
+use crate::exact::filter::{self, UNDERFLOW};
+use crate::exact::pencil::{Circle, Disk, Pencil, Vertex};
+use crate::exact::sign::{self, Form, Number};
+use crate::point::{Point, cross, dot, sub};
+use crate::space::region::Region;
+use crate::voronoi::VoronoiVertices;
+use std::cmp::Ordering::{Equal, Greater, Less};
+
+/// How the search for the disk of an edge of the one-step crust ended.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Verdict {
+    /// The disk inside this circle holds no point and no Voronoi vertex.
+    In(Circle),
+    /// Every disk holds a point or one of these Voronoi vertices; the ends of the edge's dual may be among them.
+    Out([Option<Vertex>; 2]),
+}
+
+impl Verdict {
+    pub(super) fn is_in(&self) -> bool {
+        matches!(self, Self::In(_))
+    }
+}
+
+/// A verdict, if the search for it was not given up.
+pub(crate) type Outcome = Result<Verdict, TooLong>;
+
+/// Edges that are looked up at a time: what is known of their disks fits into the first cache.
+const BATCH: usize = 256;
+
+/// Look for a disk of an edge of the one-step crust.
+#[inline]
+pub(crate) fn find_disk(delaunay: &Delaunay, edge: Edge, visit: &mut Visit) -> Outcome {
+    let own = own_triangle(delaunay, edge);
+    if own.is_none() && smallest_disk_is_in_cells(delaunay, edge) {
+        return Ok(Verdict::In(Circle::Smallest));
+    }
+    visit.begin()?;
+    let mut search = Search::new(delaunay, edge, own);
+    loop {
+        let disk = search.pencil.disk(search.circle);
+        let Some(vertex) = visit.find(delaunay, edge, &search.pencil, &disk)? else {
+            return Ok(Verdict::In(search.circle));
+        };
+        if let Some(verdict) = search.exclude(delaunay, vertex) {
+            return Ok(verdict);
+        }
+    }
+}
+
+/// Look for disks of `edges` of the one-step crust whose [`find_disk`] takes too long; `tell` the verdict on each.
+pub(crate) fn find_disks(
+    delaunay: &Delaunay,
+    edges: &[Edge],
+    index: &VoronoiVertices,
+    mut tell: impl FnMut(Edge, &Verdict),
+) {
+    for batch in edges.chunks(BATCH) {
+        let search = |&edge| Search::new(delaunay, edge, own_triangle(delaunay, edge));
+        let mut searches: Vec<Search> = batch.iter().map(search).collect();
+        while !searches.is_empty() {
+            let mut found = look_up(delaunay, &searches, index).into_iter();
+            searches.retain_mut(|search| {
+                let verdict = match found.next().flatten() {
+                    None => Some(Verdict::In(search.circle)),
+                    Some(triangle) => search.exclude(delaunay, search.vertex(delaunay, triangle)),
+                };
+                if let Some(verdict) = &verdict {
+                    tell(search.edge, verdict);
+                }
+                verdict.is_none()
+            });
+        }
+    }
+}
+
+/// For each search the triangle of a Voronoi vertex strictly inside its disk, if there is one.
+fn look_up(
+    delaunay: &Delaunay,
+    searches: &[Search],
+    index: &VoronoiVertices,
+) -> Vec<Option<[u32; 3]>> {
+    let disks: Vec<Disk> = searches.iter().map(|s| s.pencil.disk(s.circle)).collect();
+    let region = |(search, disk): (&Search, &Disk)| {
+        Region::new(search.pencil.p, disk.center, disk.radius, disk.error)
+    };
+    let regions: Vec<Region> = searches.iter().zip(&disks).map(region).collect();
+    index.find(&regions, |k, triangle| {
+        searches[k].pencil.holds(&disks[k], &searches[k].vertex(delaunay, triangle))
+    })
+}
+
+/// The corners of the edge's own triangle whose center is inside the smallest disk, the ends of the edge first.
+#[inline]
+fn own_triangle(delaunay: &Delaunay, edge: Edge) -> Option<[Point; 3]> {
+    let triangles = [(edge.p, edge.q, edge.left), (edge.q, edge.p, edge.right)];
+    triangles.into_iter().find_map(|(p, q, apex)| {
+        let corners = [p, q, apex?].map(|vertex| delaunay.point(vertex));
+        is_above_45(corners).then_some(corners)
+    })
+}
+
+/// Is the angle at the third corner about 45° or more? Then the triangle's center is inside the smallest disk of the other two.
+#[inline]
+fn is_above_45([p, q, apex]: [Point; 3]) -> bool {
+    let angle = Angle::at(apex, p, q);
+    angle.dot < angle.cross
+}
+
+/// What is left of the pencil of an edge.
+struct Search {
+    edge: Edge,
+    pencil: Pencil,
+    /// The smallest circle that is left.
+    circle: Circle,
+    /// The Voronoi vertices that bound the rest, once one was found that does: to the right and to the left.
+    ends: Option<[Option<Vertex>; 2]>,
+}
+
+impl Search {
+    /// All of it; the center of the `own` triangle is known to be in the smallest disk.
+    fn new(delaunay: &Delaunay, edge: Edge, own: Option<[Point; 3]>) -> Self {
+        let pencil = Pencil::new(delaunay.point(edge.p), delaunay.point(edge.q));
+        let through = |corners| Circle::Through(pencil.own(corners));
+        Self { edge, pencil, circle: own.map_or(Circle::Smallest, through), ends: None }
+    }
+
+    /// The Voronoi vertex of a triangle.
+    fn vertex(&self, delaunay: &Delaunay, triangle: [u32; 3]) -> Vertex {
+        self.pencil.vertex(triangle.map(|corner| delaunay.point(corner)))
+    }
+
+    /// Leave out the disks that hold the vertex `found`, which is in that of the `circle`; the verdict, if nothing is left.
+    fn exclude(&mut self, delaunay: &Delaunay, found: Vertex) -> Option<Verdict> {
+        let ends = self.ends.get_or_insert_with(|| own_centers(delaunay, self.edge, &self.pencil));
+        match self.pencil.side(&found) {
+            Greater => ends[1] = Some(found),
+            Less => ends[0] = Some(found),
+            // Between p and q, inside all disks.
+            Equal => return Some(Verdict::Out([Some(found), None])),
+        }
+        let [low, high] = *ends;
+        match self.pencil.smallest_between(low, high) {
+            Some(circle) => self.circle = circle,
+            None => return Some(Verdict::Out([low, high])),
+        }
+        None
+    }
+}
+
+/// The centers of the edge's own triangles. The angles at their apexes are acute, so each is on the side of its triangle.
+fn own_centers(delaunay: &Delaunay, edge: Edge, pencil: &Pencil) -> [Option<Vertex>; 2] {
+    let vertex = |corners: [u32; 3]| pencil.own(corners.map(|vertex| delaunay.point(vertex)));
+    let high = edge.left.map(|apex| vertex([edge.p, edge.q, apex]));
+    let low = edge.right.map(|apex| vertex([edge.q, edge.p, apex]));
+    [low, high]
+}
+
+/// Does the disk with diameter p q lie in the Voronoi cells of p and q? Then no Voronoi vertex is inside.
+///
+/// A quick test that settles most edges of a curve, and the ties of a lattice.
+#[inline]
+fn smallest_disk_is_in_cells(delaunay: &Delaunay, edge: Edge) -> bool {
+    half_stays_in_cell(delaunay, edge.p, edge.q) && half_stays_in_cell(delaunay, edge.q, edge.p)
+}
+
+/// Does the half of the disk with diameter `s` `end` that is nearer to `s` lie in the cell of `s`?
+#[inline]
+fn half_stays_in_cell(delaunay: &Delaunay, s: u32, end: u32) -> bool {
+    let (site, other) = (delaunay.point(s), delaunay.point(end));
+    delaunay
+        .star(s)
+        .neighbors
+        .iter()
+        .all(|&neighbor| neighbor == end || has_room(site, other, delaunay.point(neighbor)))
+}
+
+/// Is the half of the disk with diameter `s` `end` that is nearer to `s` nowhere nearer to `neighbor`?
+///
+/// With d the diameter from s, and g the vector to the neighbor, in the direction of g the half disk reaches |d×g| / 2 beyond
+/// the middle, d·g / 2, if g points forward, and |d| |g| / 2 if backward; the cell ends at |g|² / 2. Where the direction is in
+/// doubt the backward form serves, for it asks for no less.
+#[inline]
+fn has_room(s: Point, end: Point, neighbor: Point) -> bool {
+    let (d, g) = (sub(end, s), sub(neighbor, s));
+    let (length, far) = (dot(d, d), dot(g, g));
+    if far > 4.001 * length + UNDERFLOW {
+        // The disk is nowhere further from s than |d|, and the bisector is at |g| / 2.
+        return true;
+    }
+    let (along, aside) = (dot(d, g), cross(d, g));
+    // |d| |g| is at most the sum of the latter two, so this is more than all terms of each sum below.
+    let size = far + along.abs() + aside.abs();
+    if filter::sign(along, 4, size, 1.0) == Some(Greater) {
+        let sign = filter::sign(far - along - aside.abs(), 6, size, 1.0);
+        let exact = || sign::exact_sign(&RoomAhead, s, &[end, neighbor]);
+        return sign.unwrap_or_else(exact) != Less;
+    }
+    let room = far - along;
+    let sign = filter::sign(room * room - length * far, 12, 2.0 * size * size, 1.0);
+    sign.unwrap_or_else(|| sign::exact_sign(&RoomBehind, s, &[end, neighbor])) != Less
+}
+
+/// (|g|² − d·g)² − |d×g|², whose first root is positive.
+struct RoomAhead;
+
+impl Form<2> for RoomAhead {
+    fn bound(&self, bits: u32) -> u32 {
+        4 * bits + 5
+    }
+    fn value<T: Number>(&self, [d, g]: &[[T; 2]; 2]) -> T {
+        let room = sign::dot(g, &sign::difference(g, d));
+        let aside = sign::cross(d, g);
+        room.times(&room).minus(&aside.times(&aside))
+    }
+}
+
+/// (|g|² − d·g)² − |d|² |g|², whose first root is positive.
+struct RoomBehind;
+
+impl Form<2> for RoomBehind {
+    fn bound(&self, bits: u32) -> u32 {
+        4 * bits + 5
+    }
+    fn value<T: Number>(&self, [d, g]: &[[T; 2]; 2]) -> T {
+        let room = sign::dot(g, &sign::difference(g, d));
+        room.times(&room).minus(&sign::dot(d, d).times(&sign::dot(g, g)))
+    }
+}
