@@ -5,14 +5,12 @@
 //! together with their Voronoi vertices; here a disk is found, or shown not to exist, by a [`search`](super::search).
 
 use super::one_step_crust;
-use super::search::{find_disk, find_disks};
+use super::search::{find_disk, find_late};
 use super::visit::{TooLong, Visit};
-use crate::delaunay::{Delaunay, Edge};
+use crate::delaunay::Delaunay;
 use crate::edges::{Edges, rows, select, sort};
 use crate::error::Result;
-use crate::parts::{GRAIN, in_parts};
 use crate::progress::Progress;
-use crate::voronoi::VoronoiVertices;
 use std::sync::{Mutex, PoisonError};
 
 /// The edges with a disk that touches both ends and holds, in its interior, no point and no Voronoi vertex.
@@ -23,7 +21,7 @@ use std::sync::{Mutex, PoisonError};
 /// A cancelled `progress`.
 pub fn crust(delaunay: &Delaunay, progress: &Progress) -> Result<Edges> {
     let late = Mutex::new(Vec::new());
-    let kept = select(delaunay, progress, Visit::limited, |visit, edge| {
+    let kept = select(delaunay, progress, Visit::default, |visit, edge| {
         one_step_crust::is_in(delaunay, edge)
             && find_disk(delaunay, edge, visit).map_or_else(
                 |TooLong| {
@@ -34,27 +32,11 @@ pub fn crust(delaunay: &Delaunay, progress: &Progress) -> Result<Edges> {
             )
     })?;
     let late = late.into_inner().unwrap_or_else(PoisonError::into_inner);
-    if late.is_empty() { Ok(kept) } else { with_late(delaunay, kept, &late, progress) }
-}
-
-/// The edges `kept`, and those of the `late` ones that are in. Their disks meet so many cells that an index of all Voronoi vertices
-/// takes less time.
-#[cold]
-fn with_late(
-    delaunay: &Delaunay,
-    kept: Edges,
-    late: &[Edge],
-    progress: &Progress,
-) -> Result<Edges> {
-    let index = VoronoiVertices::new(delaunay, progress)?;
-    let mut parts = in_parts(late.len(), GRAIN, &progress.quiet(), |range| {
-        let mut found = Edges::new();
-        find_disks(delaunay, &late[range], &index, |edge, verdict| {
-            if verdict.is_in() {
-                found.push(rows(delaunay, edge.p, edge.q));
-            }
-        });
-        found
+    if late.is_empty() {
+        return Ok(kept);
+    }
+    let mut parts = find_late(delaunay, &late, progress, |edge, verdict| {
+        verdict.is_in().then(|| rows(delaunay, edge.p, edge.q))
     })?;
     parts.push(kept);
     Ok(sort(&parts, delaunay.input_len()))

@@ -18,7 +18,7 @@ pub fn empty_disk(delaunay: &Delaunay, rows: [u32; 2]) -> Option<(Point, f64)> {
     if !one_step_crust::is_in(delaunay, edge) {
         return None;
     }
-    let verdict = find_disk(delaunay, edge, &mut Visit::limited()).ok();
+    let verdict = find_disk(delaunay, edge, &mut Visit::default()).ok();
     match verdict.or_else(|| find_by_place(delaunay, edge)) {
         Some(Verdict::In(circle)) => Some(unscaled(delaunay, edge, circle)),
         _ => None,
@@ -34,7 +34,7 @@ fn find_by_place(delaunay: &Delaunay, edge: Edge) -> Option<Verdict> {
             find_disks(delaunay, &[edge], &index, |_, verdict| found = Some(*verdict));
             found
         }
-        Err(_) => find_disk(delaunay, edge, &mut Visit::default()).ok(),
+        Err(_) => find_disk(delaunay, edge, &mut Visit::without_limit()).ok(),
     }
 }
 

@@ -30,7 +30,7 @@ mod visit;
 pub(crate) use crossing_angle::Crossing;
 pub(crate) use gamma_graph::has_angles;
 pub(crate) use one_step_crust::is_in as is_in_one_step_crust;
-pub(crate) use search::{Verdict, find_disk};
+pub(crate) use search::{Verdict, find_disk, find_late};
 pub(crate) use visit::Visit;
 
 pub use a_shape::a_shape;

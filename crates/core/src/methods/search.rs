@@ -3,11 +3,14 @@
 
 use super::visit::{TooLong, Visit};
 use crate::delaunay::{Delaunay, Edge};
+use crate::error::Result;
 use crate::exact::angle::Angle;
 use crate::exact::filter::{self, UNDERFLOW};
 use crate::exact::pencil::{Circle, Disk, Pencil, Vertex};
 use crate::exact::sign::{self, Form, Number};
+use crate::parts::{GRAIN, in_parts};
 use crate::point::{Point, cross, dot, sub};
+use crate::progress::Progress;
 use crate::space::region::Region;
 use crate::voronoi::VoronoiVertices;
 use std::cmp::Ordering::{Equal, Greater, Less};
@@ -28,7 +31,7 @@ impl Verdict {
 }
 
 /// A verdict, if the search for it was not given up.
-pub(crate) type Outcome = Result<Verdict, TooLong>;
+pub(crate) type Outcome = std::result::Result<Verdict, TooLong>;
 
 /// Edges that are looked up at a time: what is known of their disks fits into the first cache.
 const BATCH: usize = 256;
@@ -53,8 +56,30 @@ pub(crate) fn find_disk(delaunay: &Delaunay, edge: Edge, visit: &mut Visit) -> O
     }
 }
 
-/// Look for disks of `edges` of the one-step crust whose [`find_disk`] takes too long; `tell` the verdict on each.
-pub(crate) fn find_disks(
+/// Look for disks of the edges whose [`find_disk`] takes too long; what `make` makes of the verdicts, in parts. Their disks meet so many cells
+/// that an index of all Voronoi vertices takes less time.
+///
+/// # Errors
+/// Too little memory, or a cancelled `progress`.
+#[cold]
+pub(crate) fn find_late<T: Send>(
+    delaunay: &Delaunay,
+    late: &[Edge],
+    progress: &Progress,
+    make: impl Fn(Edge, &Verdict) -> Option<T> + Sync,
+) -> Result<Vec<Vec<T>>> {
+    let index = VoronoiVertices::new(delaunay, progress)?;
+    in_parts(late.len(), GRAIN, &progress.quiet(), |range| {
+        let mut made = Vec::new();
+        find_disks(delaunay, &late[range], &index, |edge, verdict| {
+            made.extend(make(edge, verdict));
+        });
+        made
+    })
+}
+
+/// Look for disks of `edges` by the `index`, and `tell` the verdict on each.
+pub(super) fn find_disks(
     delaunay: &Delaunay,
     edges: &[Edge],
     index: &VoronoiVertices,

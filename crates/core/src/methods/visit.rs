@@ -7,7 +7,6 @@ use crate::point::{Point, cross, dot, sub};
 use std::collections::HashSet;
 
 /// A search for a Voronoi vertex inside a disk: a walk over the cells that meet it, and its memory.
-#[derive(Default)]
 pub struct Visit {
     cells: Vec<u32>,
     many: HashSet<u32>,
@@ -32,10 +31,23 @@ const ALLOWANCE: usize = 1 << 10;
 /// With fewer cells left a search is given up before it begins.
 const LEAST: usize = 16;
 
-impl Visit {
+impl Default for Visit {
     /// One whose walks are given up where they pass more cells than pays.
-    pub fn limited() -> Self {
-        Self { allowance: Some(ALLOWANCE), patience: LEAST, ..Self::default() }
+    fn default() -> Self {
+        Self {
+            cells: Vec::new(),
+            many: HashSet::new(),
+            allowance: Some(ALLOWANCE),
+            given_up: 0,
+            patience: LEAST,
+        }
+    }
+}
+
+impl Visit {
+    /// One whose walks are never given up.
+    pub fn without_limit() -> Self {
+        Self { allowance: None, ..Self::default() }
     }
 
     /// To be asked before the search for the disk of an edge: is there an allowance for it?

@@ -6,6 +6,8 @@ use crate::delaunay::Delaunay;
 use crate::interpolant::Interpolant;
 use crate::point::Point;
 use crate::progress::Progress;
+use crate::space::bounds::Bounds;
+use crate::tiles::{self, Decision, Question, Unseen};
 use crate::{certify, medial_axis, methods};
 use std::cell::Cell;
 use std::f64::consts::TAU;
@@ -118,6 +120,7 @@ fn works(points: &[Point]) -> Vec<(&'static str, usize)> {
         measure(name, &|| drop(methods::select(&delaunay, name, parameters, &quiet)));
     }
     measure("medial axis", &|| drop(medial_axis::medial_axis(&delaunay, &edges, &quiet)));
+    measure("tiles", &|| drop(tile(&delaunay)));
     measure("certificate", &|| {
         let interpolant = Interpolant::new(&delaunay, &edges, &quiet).expect("no one cancels");
         certify::ratios(&delaunay, &edges, &interpolant, &quiet).expect("no one cancels");
@@ -125,6 +128,28 @@ fn works(points: &[Point]) -> Vec<(&'static str, usize)> {
         methods::is_beta_skeleton(&delaunay, 1.7, &curve, &quiet).expect("no one cancels");
     });
     works
+}
+
+/// The crust of a tile that holds all points.
+fn tile(delaunay: &Delaunay) -> Decision {
+    let own = vec![true; delaunay.input_len()];
+    let bounds = Bounds { low: [-1e9; 2], high: [1e9; 2] };
+    let unseen = Unseen::new(&[], &[], bounds, delaunay.scale());
+    let question = Question { own: &own, fresh: &own, pairs: &[], unseen: &unseen, most: 4 };
+    tiles::decide(delaunay, &tiles::Crust, &question, &Progress::default()).expect("no one cancels")
+}
+
+#[test]
+fn a_tile_puts_long_walks_off_and_decides_them_as_the_whole_does() {
+    for d in [1e-12, 1e-10, 1e-8] {
+        let point = |k: usize| circle(k / 2, SIZE / 2, 1.0 + d * (k % 2) as f64);
+        let points: Vec<Point> = (0..SIZE).map(point).collect();
+        let delaunay = Delaunay::new(&points, &Progress::default()).expect("points");
+        let Decision { edges, open_edges, open_vertices, .. } = tile(&delaunay);
+        let crust = methods::crust(&delaunay, &Progress::default()).expect("no one cancels");
+        assert!(open_edges.is_empty() && open_vertices.is_empty());
+        assert_eq!(edges, crust);
+    }
 }
 
 /// What a call does for a point at least, in about nanoseconds.

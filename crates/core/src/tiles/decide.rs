@@ -66,6 +66,7 @@ pub fn decide<R: Rule>(
     let vertices = delaunay.points().len();
     let mut parts = in_parts(vertices, GRAIN, progress, |vertices| tile.part(vertices))?;
     parts.push(tile.pairs());
+    parts.push(tile.late(&parts, progress)?);
     Ok(tile.collect(parts))
 }
 
@@ -126,6 +127,8 @@ struct Part {
     edges: Edges,
     open_edges: Vec<(Edge, [Option<Disk>; 2])>,
     open_vertices: Vec<(u32, Partners)>,
+    /// The edges that take too long to decide one by one.
+    late: Vec<Edge>,
 }
 
 /// Which unseen pieces may hold partners of a vertex.
@@ -178,7 +181,26 @@ impl<'a, R: Rule> Tile<'a, R> {
     }
 
     fn decide_edge(&self, edge: Edge, memory: &mut R::Memory, part: &mut Part) {
-        let Finding { is_in, rests_on } = self.rule.find(self.delaunay, edge, memory);
+        match self.rule.find(self.delaunay, edge, memory) {
+            Some(finding) => self.settle(edge, &finding, part),
+            None => part.late.push(edge),
+        }
+    }
+
+    /// The edges of `parts` that were put off.
+    fn late(&self, parts: &[Part], progress: &Progress) -> Result<Part> {
+        let mut part = Part::default();
+        let late: Vec<Edge> = parts.iter().flat_map(|part| &part.late).copied().collect();
+        if !late.is_empty() {
+            for (edge, finding) in self.rule.find_late(self.delaunay, &late, progress)? {
+                self.settle(edge, &finding, &mut part);
+            }
+        }
+        Ok(part)
+    }
+
+    fn settle(&self, edge: Edge, finding: &Finding, part: &mut Part) {
+        let &Finding { is_in, rests_on } = finding;
         if rests_on.iter().flatten().any(|disk| self.question.unseen.hides(disk)) {
             part.open_edges.push((edge, rests_on));
         } else if is_in {

@@ -6,8 +6,11 @@ use crate::delaunay::{Delaunay, Edge};
 use crate::error::{Error, Result};
 use crate::exact::angle_bound::AngleBound;
 use crate::exact::pencil::{Pencil, Vertex};
-use crate::methods::{Crossing, Verdict, Visit, find_disk, has_angles, is_in_one_step_crust};
+use crate::methods::{
+    Crossing, Verdict, Visit, find_disk, find_late, has_angles, is_in_one_step_crust,
+};
 use crate::point::{Point, cross, dot, sub};
+use crate::progress::Progress;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The verdict on an edge, by the points that were seen: final if no point in the disks is unseen.
@@ -29,8 +32,23 @@ pub trait Rule: Sync {
     /// The working memory of one task.
     type Memory: Default;
 
-    /// The verdict on an edge of the triangulation.
-    fn find(&self, delaunay: &Delaunay, edge: Edge, memory: &mut Self::Memory) -> Finding;
+    /// The verdict on an edge of the triangulation, unless it takes too long.
+    fn find(&self, delaunay: &Delaunay, edge: Edge, memory: &mut Self::Memory) -> Option<Finding>;
+
+    /// The verdicts on the edges that took too long.
+    ///
+    /// # Errors
+    /// Too little memory, or a cancelled `progress`.
+    fn find_late(
+        &self,
+        _delaunay: &Delaunay,
+        late: &[Edge],
+        _progress: &Progress,
+    ) -> Result<Vec<(Edge, Finding)>> {
+        // No verdict by a fixed number of disks does.
+        assert!(late.is_empty());
+        Ok(Vec::new())
+    }
 
     /// Is the edge in the graph of these points that holds the method's edges between them, whatever other points there are?
     fn may_join(&self, delaunay: &Delaunay, edge: Edge) -> bool;
@@ -75,24 +93,22 @@ pub struct Crust;
 impl Rule for Crust {
     type Memory = Visit;
 
-    /// In by a disk: final once all of its influence is seen. Out by Voronoi vertices: once each is seen to be one.
-    fn find(&self, delaunay: &Delaunay, edge: Edge, visit: &mut Visit) -> Finding {
+    fn find(&self, delaunay: &Delaunay, edge: Edge, visit: &mut Visit) -> Option<Finding> {
         if !is_in_one_step_crust(delaunay, edge) {
-            return Finding::OUT;
+            return Some(Finding::OUT);
         }
-        let pencil = pencil(delaunay, edge);
-        match find_disk(delaunay, edge, visit) {
-            Ok(Verdict::In(circle)) => {
-                let influence = Disk::influence(&pencil, circle);
-                Finding { is_in: true, rests_on: [Some(influence), None] }
-            }
-            Ok(Verdict::Out(vertices)) => {
-                let disk = |vertex: Option<Vertex>| vertex.and_then(|v| disk_of(&pencil, &v));
-                Finding { is_in: false, rests_on: vertices.map(disk) }
-            }
-            // A visit of tiles has no limit.
-            Err(_) => Finding::OUT,
-        }
+        let verdict = find_disk(delaunay, edge, visit).ok()?;
+        Some(by_disks(delaunay, edge, &verdict))
+    }
+
+    fn find_late(
+        &self,
+        delaunay: &Delaunay,
+        late: &[Edge],
+        progress: &Progress,
+    ) -> Result<Vec<(Edge, Finding)>> {
+        let make = |edge, verdict: &_| Some((edge, by_disks(delaunay, edge, verdict)));
+        Ok(find_late(delaunay, late, progress, make)?.concat())
     }
 
     fn may_join(&self, delaunay: &Delaunay, edge: Edge) -> bool {
@@ -101,6 +117,21 @@ impl Rule for Crust {
 
     fn partners(&self) -> Partners {
         Partners::SeenUnder(FRAC_PI_2)
+    }
+}
+
+/// In by a disk: final once all of its influence is seen. Out by Voronoi vertices: once each is seen to be one.
+fn by_disks(delaunay: &Delaunay, edge: Edge, verdict: &Verdict) -> Finding {
+    let pencil = pencil(delaunay, edge);
+    match verdict {
+        Verdict::In(circle) => {
+            let influence = Disk::influence(&pencil, *circle);
+            Finding { is_in: true, rests_on: [Some(influence), None] }
+        }
+        Verdict::Out(vertices) => {
+            let disk = |vertex: Option<Vertex>| vertex.and_then(|v| disk_of(&pencil, &v));
+            Finding { is_in: false, rests_on: vertices.map(disk) }
+        }
     }
 }
 
@@ -122,9 +153,9 @@ pub struct OneStepCrust;
 impl Rule for OneStepCrust {
     type Memory = ();
 
-    fn find(&self, delaunay: &Delaunay, edge: Edge, (): &mut ()) -> Finding {
+    fn find(&self, delaunay: &Delaunay, edge: Edge, (): &mut ()) -> Option<Finding> {
         let is_in = is_in_one_step_crust(delaunay, edge);
-        if is_in { by_two_disks(delaunay, edge, FRAC_PI_2) } else { Finding::OUT }
+        Some(if is_in { by_two_disks(delaunay, edge, FRAC_PI_2) } else { Finding::OUT })
     }
 
     fn may_join(&self, delaunay: &Delaunay, edge: Edge) -> bool {
@@ -156,9 +187,9 @@ impl CrossingAngle {
 impl Rule for CrossingAngle {
     type Memory = ();
 
-    fn find(&self, delaunay: &Delaunay, edge: Edge, (): &mut ()) -> Finding {
+    fn find(&self, delaunay: &Delaunay, edge: Edge, (): &mut ()) -> Option<Finding> {
         let is_in = self.crossing.holds(delaunay, edge);
-        if is_in { by_two_disks(delaunay, edge, self.angle) } else { Finding::OUT }
+        Some(if is_in { by_two_disks(delaunay, edge, self.angle) } else { Finding::OUT })
     }
 
     fn may_join(&self, delaunay: &Delaunay, edge: Edge) -> bool {
@@ -219,13 +250,13 @@ impl Rule for BetaSkeleton {
     type Memory = ();
 
     /// In by its two disks.
-    fn find(&self, delaunay: &Delaunay, edge: Edge, (): &mut ()) -> Finding {
+    fn find(&self, delaunay: &Delaunay, edge: Edge, (): &mut ()) -> Option<Finding> {
         if !self.may_join(delaunay, edge) {
-            return Finding::OUT;
+            return Some(Finding::OUT);
         }
         let (pencil, height) = (pencil(delaunay, edge), self.bound.cotangent());
         let disk = |height: f64| Some(Disk::at_height(&pencil, height, f64::EPSILON * self.beta));
-        Finding { is_in: true, rests_on: [height, -height].map(disk) }
+        Some(Finding { is_in: true, rests_on: [height, -height].map(disk) })
     }
 
     fn may_join(&self, delaunay: &Delaunay, edge: Edge) -> bool {
