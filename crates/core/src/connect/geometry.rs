@@ -8,6 +8,7 @@ use super::constants::{Constants, SPACING_RINGS};
 use super::rings::ring_median;
 use crate::delaunay::Delaunay;
 use crate::point::{Point, length, sub};
+use wide::{f32x4, i32x4};
 
 /// The distances between candidates' ends.
 #[derive(Debug, Default)]
@@ -108,11 +109,21 @@ impl Turns {
     }
 }
 
+/// A unit of directions, in half turns.
+const UNIT: f32 = 1.0 / HALF_TURN as f32;
+
 /// The square root of the turn from the opposite of one direction to another, in half turns.
 #[inline]
 #[must_use]
 pub fn root_turn(direction: u32, opposite: u32) -> f32 {
-    const UNIT: f32 = 1.0 / HALF_TURN as f32;
     let turn = direction.wrapping_sub(opposite) as i32;
     ((turn as f32).abs() * UNIT).sqrt()
+}
+
+/// That of four directions, from the opposite of one.
+#[inline]
+#[must_use]
+pub fn root_turns(directions: i32x4, direction: i32x4) -> f32x4 {
+    let turns = directions - (direction ^ i32x4::splat(i32::MIN));
+    (f32x4::from_i32x4(turns).abs() * f32x4::splat(UNIT)).sqrt()
 }

@@ -3,16 +3,18 @@
 //! The message of a vertex to an edge is what the edge costs at that vertex beyond its absence, all else at its best
 //! (J. Pearl, "Probabilistic Reasoning in Intelligent Systems", 1988). All are sent at once, and damped.
 
-use super::approximation::HALF_TURN;
 use super::candidates::{Candidates, GRAIN, each};
-use super::constants::{CONVERGED, DAMPING, MOST_PAIRED};
+use super::constants::{CONVERGED, DAMPING};
 use super::costs::Costs;
-use super::geometry::{Spacing, Turns, root_turn};
+use super::geometry::{Spacing, Turns};
+use super::pairs::{INFINITE, LANES, Least, MOST_QUADS, Paired, Pairs, Quads, cast, lane};
 use crate::error::Result;
 use crate::parts::split;
 use crate::progress::Progress;
+use std::array;
 use std::mem::swap;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use wide::f32x4;
 
 /// What the messages run on.
 #[derive(Clone, Copy)]
@@ -44,6 +46,9 @@ impl Factors<'_> {
     /// # Errors
     /// A cancelled `progress`.
     pub fn converge(&self, sweeps: usize, sent: &mut Vec<f32>, progress: &Progress) -> Result<()> {
+        if sent.is_empty() {
+            return Ok(());
+        }
         let flags = |is_active: bool| -> Vec<AtomicBool> {
             (0..self.candidates.vertices()).map(|_| AtomicBool::new(is_active)).collect()
         };
@@ -67,60 +72,63 @@ impl Factors<'_> {
 
     /// Write the messages of part `k`: new ones of its active vertices, which are not active any more.
     fn write(&self, k: usize, sweep: &Sweep<'_>, fresh: &mut [f32]) {
-        let mut work = Work::default();
         let vertices = k * GRAIN..((k + 1) * GRAIN).min(self.candidates.vertices());
         let first = self.candidates.from(vertices.start).start;
-        fresh.copy_from_slice(&sweep.sent[first..first + fresh.len()]);
         for v in vertices {
-            if sweep.active[v].swap(false, Relaxed) {
-                self.send(v, sweep.sent, &mut work);
-                let range = self.candidates.from(v);
-                let own = &mut fresh[range.start - first..range.end - first];
-                self.damp(v, &work.messages, sweep, own);
+            let range = self.candidates.from(v);
+            let own = &mut fresh[range.start - first..];
+            if !sweep.active[v].load(Relaxed) {
+                own[..range.len()].copy_from_slice(&sweep.sent[range]);
+                continue;
+            }
+            sweep.active[v].store(false, Relaxed);
+            match self.candidates.pairs(v) {
+                0..=4 => self.send::<1>(v, sweep, own),
+                5..=8 => self.send::<2>(v, sweep, own),
+                9..=12 => self.send::<3>(v, sweep, own),
+                _ => self.send::<MOST_QUADS>(v, sweep, own),
             }
         }
     }
 
-    /// Move the messages of `v` towards new ones; where one changed, both ends send again.
-    fn damp(&self, v: usize, messages: &[f32], sweep: &Sweep<'_>, own: &mut [f32]) {
-        let mut moves = false;
-        for ((own, &message), &end) in
-            own.iter_mut().zip(messages).zip(self.candidates.neighbors(v))
-        {
-            let change = sweep.share * (message - *own);
-            *own = if sweep.share == 1.0 { message } else { *own + change };
-            if change.abs() > CONVERGED {
-                sweep.later[end as usize].store(true, Relaxed);
-                moves = true;
-            }
-        }
-        if moves {
-            sweep.later[v].store(true, Relaxed);
+    /// Write the messages of `v`, whose pairs take `Q` quads, where `own` begins; those of later vertices, beyond, come later.
+    #[inline]
+    fn send<const Q: usize>(&self, v: usize, sweep: &Sweep<'_>, own: &mut [f32]) {
+        let Self { candidates, turns, costs, .. } = self;
+        let (range, count) = (candidates.from(v), candidates.pairs(v));
+        let pairs = Pairs::new(&Paired {
+            seen: self.seen::<Q>(range.start, count, sweep.sent),
+            directions: quads(&turns.directions, range.start).map(cast),
+            lengths: quads(&self.spacing.lengths, range.start).map(f32x4::new),
+            turn: f32x4::splat(costs.turns[v]),
+            step: f32x4::splat(costs.steps[v]),
+        });
+        let others = range.start + count..range.end;
+        let seen = |e: usize| costs.edges[e] + sweep.sent[candidates.twins[e] as usize];
+        let single = others.clone().map(seen).fold(pairs.single(), Least::meet);
+        let (best, messages) = pairs.messages([costs.ends[v], costs.alone[v]], single);
+        let before: Quads<Q> = quads(sweep.sent, range.start).map(f32x4::new);
+        let (after, moves) = sweep.step(&messages, &before);
+        put(own, count, &after);
+        sweep.tell(v, moves & ((1 << count) - 1), &quads::<_, Q>(&candidates.ends, range.start));
+        for e in others {
+            let message = single.message([costs.ends[v], costs.alone[v]], seen(e), best);
+            let (after, moves) = sweep.step(&[message], &[f32x4::splat(sweep.sent[e])]);
+            own[e - range.start] = lane(&after, 0);
+            sweep.tell(v, moves & 1, &[[candidates.ends[e]; 4]]);
         }
     }
 
-    /// Put the messages of `v` into `work`.
-    fn send(&self, v: usize, sent: &[f32], work: &mut Work) {
-        let Self { candidates, spacing, turns, costs } = self;
-        let range = candidates.from(v);
-        work.incoming.clear();
-        let twins = &candidates.twins[range.clone()];
-        let edges = &costs.edges[range.clone()];
-        work.incoming
-            .extend(edges.iter().zip(twins).map(|(cost, &twin)| cost + sent[twin as usize]));
-        let paired = range.start..range.start + candidates.pairs(v);
-        let edges = Paired {
-            directions: &turns.directions[paired.clone()],
-            lengths: &spacing.lengths[paired],
-            turn: costs.turns[v],
-            step: costs.steps[v],
-        };
-        let prices = [costs.ends[v], costs.alone[v]];
-        match edges.lengths.len() {
-            0..=4 => work.answer(&Pairs::<4>::new(&edges, &work.incoming), prices),
-            5..=8 => work.answer(&Pairs::<8>::new(&edges, &work.incoming), prices),
-            _ => work.answer(&Pairs::<MOST_LANES>::new(&edges, &work.incoming), prices),
-        }
+    /// What the `count` half-edges from `start` on cost as seen from their other ends; infinite in further lanes.
+    #[inline]
+    fn seen<const Q: usize>(&self, start: usize, count: usize, sent: &[f32]) -> Quads<Q> {
+        let prices: [_; Q] = quads(&self.costs.edges, start);
+        let twins: [_; Q] = quads(&self.candidates.twins, start);
+        array::from_fn(|q| {
+            let sent = twins[q].map(|twin: u32| sent[twin as usize]);
+            let is_edge = LANES[q].simd_lt(f32x4::splat(count as f32));
+            is_edge.bitselect(f32x4::new(prices[q]) + f32x4::new(sent), INFINITE)
+        })
     }
 
     /// The belief in each edge, by half-edge: what it costs beyond its absence, all else at its best.
@@ -135,160 +143,59 @@ impl Factors<'_> {
     }
 }
 
-/// The two least of some costs, and what gave the least.
-#[derive(Clone, Copy)]
-struct Least {
-    value: f32,
-    second: f32,
-    index: usize,
-}
-
-impl Least {
-    const NONE: Self = Self { value: f32::INFINITY, second: f32::INFINITY, index: usize::MAX };
-
-    /// Without branches: which is the least is hard to foretell.
+impl Sweep<'_> {
+    /// Messages on their way to new ones, and a bit for each that changes.
     #[inline]
-    fn meet(&mut self, value: f32, index: usize) {
-        let is_less = value < self.value;
-        self.second = least(self.second, if is_less { self.value } else { value });
-        self.index = if is_less { index } else { self.index };
-        self.value = least(self.value, value);
+    fn step<const Q: usize>(&self, messages: &Quads<Q>, before: &Quads<Q>) -> (Quads<Q>, u32) {
+        let (mut after, mut moves) = (*messages, 0);
+        for q in 0..Q {
+            let change = f32x4::splat(self.share) * (messages[q] - before[q]);
+            if self.share < 1.0 {
+                after[q] = before[q] + change;
+            }
+            moves |= change.abs().simd_gt(f32x4::splat(CONVERGED)).to_bitmask() << (4 * q);
+        }
+        (after, moves)
     }
 
+    /// Where a message of `v` changed, both ends send again.
     #[inline]
-    fn without(&self, index: usize) -> f32 {
-        if self.index == index { self.second } else { self.value }
+    fn tell<const Q: usize>(&self, v: usize, moves: u32, ends: &[[u32; 4]; Q]) {
+        if moves == 0 {
+            return;
+        }
+        for (k, &end) in ends.as_flattened().iter().enumerate() {
+            // Which of them changed is hard to foretell, so something is written for each.
+            let end = if moves >> k & 1 == 1 { end as usize } else { v };
+            self.later[end].store(true, Relaxed);
+        }
+        self.later[v].store(true, Relaxed);
     }
 }
 
-/// The lesser number, without a thought of NaN: one instruction.
+/// The values from `start` on in quads; beyond the last there may be any.
 #[inline]
-fn least(a: f32, b: f32) -> f32 {
-    if a < b { a } else { b }
-}
-
-/// The edges at a vertex that form pairs, and the weights of their turns and of their steps.
-struct Paired<'a> {
-    directions: &'a [u32],
-    lengths: &'a [f32],
-    turn: f32,
-    step: f32,
-}
-
-/// What the edges at a vertex cost by two: a lane for each that forms pairs, and some empty ones, so that a row is a vector or
-/// two of the processor's.
-struct Pairs<const N: usize> {
-    /// How many edges form pairs.
-    count: usize,
-    /// In row j, lane i: what edge j costs beside edge i, at the vertex and as seen from its own other end.
-    rows: [[f32; N]; N],
-    /// By lane: the least of its rows.
-    beside: [f32; N],
-    /// By lane: what the edge costs as seen from its other end.
-    seen: [f32; N],
-}
-
-/// The fewest lanes that hold all edges that form pairs.
-const MOST_LANES: usize = MOST_PAIRED.next_multiple_of(4);
-
-impl<const N: usize> Pairs<N> {
-    /// In row j, lane i: what keeps an edge from being a pair with itself.
-    const SELF: [[f32; N]; N] = {
-        let mut rows = [[0.0; N]; N];
-        let mut k = 0;
-        while k < N {
-            rows[k][k] = f32::INFINITY;
-            k += 1;
+fn quads<T: Copy + Default, const Q: usize>(values: &[T], start: usize) -> [[T; 4]; Q] {
+    let values = &values[start..];
+    values.as_chunks().0.first_chunk().copied().unwrap_or_else(|| {
+        let mut quads = [[T::default(); 4]; Q];
+        for (own, &value) in quads.as_flattened_mut().iter_mut().zip(values) {
+            *own = value;
         }
-        rows
-    };
-
-    #[inline]
-    fn new(edges: &Paired<'_>, incoming: &[f32]) -> Self {
-        let count = edges.lengths.len();
-        let seen = padded(&incoming[..count], f32::INFINITY);
-        let directions: [u32; N] = padded(edges.directions, 0);
-        let lengths: [f32; N] = padded(edges.lengths, 0.0);
-        let mut own = Self { count, rows: [[0.0; N]; N], beside: [f32::INFINITY; N], seen };
-        for j in 0..count {
-            let opposite = directions[j] ^ HALF_TURN;
-            for i in 0..N {
-                let turn = edges.turn * root_turn(directions[i], opposite);
-                let step = edges.step * (lengths[i] - lengths[j]).abs();
-                let cost = turn + step + (seen[j] + Self::SELF[j][i]);
-                own.rows[j][i] = cost;
-                own.beside[i] = least(own.beside[i], cost);
-            }
-        }
-        own
-    }
-
-    /// What the cheapest pair costs, and its lanes.
-    #[inline]
-    fn best(&self) -> (f32, [usize; 2]) {
-        let sums = sums(&self.seen, &self.beside);
-        let best = sums.iter().copied().fold(f32::INFINITY, least);
-        let i = sums.iter().position(|&sum| sum == best).unwrap_or_default();
-        let j = self.rows[..self.count].iter().position(|row| row[i] == self.beside[i]);
-        (best, [i, j.unwrap_or_default()])
-    }
-
-    /// What the cheapest pair without lane `k` costs.
-    #[inline]
-    fn without(&self, k: usize) -> f32 {
-        let mut beside = Self::SELF[k];
-        let mut rest = [f32::INFINITY; N];
-        for row in self.rows[..k].iter().chain(&self.rows[k + 1..self.count]) {
-            for (rest, &cost) in rest.iter_mut().zip(row) {
-                *rest = least(*rest, cost);
-            }
-        }
-        for (beside, rest) in beside.iter_mut().zip(rest) {
-            *beside += rest;
-        }
-        sums(&self.seen, &beside).into_iter().fold(f32::INFINITY, least)
-    }
+        quads
+    })
 }
 
-fn sums<const N: usize>(a: &[f32; N], b: &[f32; N]) -> [f32; N] {
-    std::array::from_fn(|k| a[k] + b[k])
-}
-
-/// Some values, and `empty` in further lanes.
-fn padded<T: Copy, const N: usize>(values: &[T], empty: T) -> [T; N] {
-    let mut lanes = [empty; N];
-    lanes[..values.len()].copy_from_slice(values);
-    lanes
-}
-
-/// The memory of one task.
-#[derive(Default)]
-struct Work {
-    /// What each edge costs as seen from its other end.
-    incoming: Vec<f32>,
-    /// The answers.
-    messages: Vec<f32>,
-}
-
-impl Work {
-    /// On less off, for each edge, given what an end costs and the point alone.
-    #[inline]
-    fn answer<const N: usize>(&mut self, pairs: &Pairs<N>, [end, alone]: [f32; 2]) {
-        let mut single = Least::NONE;
-        for (k, &cost) in self.incoming.iter().enumerate() {
-            single.meet(cost, k);
+/// Put quads, of which `count` lanes count, where `values` begin.
+#[inline]
+fn put<const Q: usize>(values: &mut [f32], count: usize, quads: &Quads<Q>) {
+    if let Some(chunks) = values.as_chunks_mut().0.first_chunk_mut::<Q>() {
+        for (chunk, quad) in chunks.iter_mut().zip(quads) {
+            *chunk = quad.to_array();
         }
-        let (best, lanes) = pairs.best();
-        let message = |k: usize, pair: f32| {
-            let on = if k < pairs.count { least(end, pairs.beside[k]) } else { end };
-            on - least(least(alone, end + single.without(k)), pair)
-        };
-        self.messages.clear();
-        self.messages.extend((0..self.incoming.len()).map(|k| message(k, best)));
-        if pairs.count > 1 {
-            for k in lanes {
-                self.messages[k] = message(k, pairs.without(k));
-            }
+    } else {
+        for (k, own) in values[..count].iter_mut().enumerate() {
+            *own = lane(quads, k);
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Outliers that were joined to each other: small components are dropped where points are isolated.
 
 use super::constants::{Constants, FEWEST, PRUNE_FROM};
+use super::median::median;
 use super::messages::Factors;
-use super::rings::median;
 use super::selection::Selection;
 use crate::error::{Error, Result};
 

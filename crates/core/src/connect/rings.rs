@@ -1,6 +1,7 @@
 //! Medians over rings of neighbors: smoothing that a few wild values do not move.
 
 use super::candidates::{Candidates, GRAIN, each};
+use super::median::{Sorted, balanced, median, middle};
 
 /// For each vertex the median of the values at it and at those neighbors that count, as seen from it along a half-edge.
 ///
@@ -13,80 +14,45 @@ pub fn ring_median(
 ) -> Vec<f64> {
     let mut medians = values.to_vec();
     each(medians.chunks_mut(GRAIN), |(k, part)| {
-        let mut ring = Vec::new();
         for (i, own) in part.iter_mut().enumerate() {
             let v = k * GRAIN + i;
-            let range = candidates.from(v);
-            ring.resize(ring.len().max(range.len() + 1), 0.0);
-            // Without branches, as in all of this: which values count is hard to foretell.
-            ring[0] = *own;
-            let mut count = usize::from(!own.is_nan());
-            for e in range {
-                let value = values[candidates.ends[e] as usize];
-                ring[count] = value;
-                count += usize::from(counts(v, e) & !value.is_nan());
-            }
-            *own = median(&mut ring[..count]).unwrap_or(*own);
+            let ring =
+                candidates.from(v).map(|e| (values[candidates.ends[e] as usize], counts(v, e)));
+            let median = match ring.len() {
+                0..8 => of_few::<4>(*own, ring),
+                8..16 => of_few::<8>(*own, ring),
+                _ => of_many(*own, ring),
+            };
+            *own = median.unwrap_or(*own);
         }
     });
     medians
 }
 
-/// The median, of an even number the mean of the two in the middle; `None` of none.
-#[must_use]
-pub fn median(values: &mut [f64]) -> Option<f64> {
-    let count = values.len();
-    match count {
-        0 => return None,
-        1..=8 => return Some(middle(&sorted::<8>(values)[..count])),
-        9..=16 => return Some(middle(&sorted::<16>(values)[..count])),
-        _ => (),
+/// The median of a value and those others that count, fewer than twice `H`.
+#[inline]
+fn of_few<const H: usize>(own: f64, others: impl Iterator<Item = (f64, bool)>) -> Option<f64>
+where
+    [f64; H]: Sorted,
+{
+    let mut halves = const { balanced::<H>() };
+    let places = halves.as_flattened_mut();
+    places[0] = own;
+    let mut count = usize::from(!own.is_nan());
+    // Without branches: which values count is hard to foretell.
+    for (value, counts) in others {
+        places[count] = value;
+        count += usize::from(counts & !value.is_nan());
     }
-    let (low, &mut middle, _) = values.select_nth_unstable_by(count / 2, f64::total_cmp);
-    if count % 2 == 1 {
-        return Some(middle);
+    if let Some(place) = places.get_mut(count) {
+        *place = const { balanced::<H>() }[0][count % 2];
     }
-    let below = low.iter().copied().max_by(f64::total_cmp)?;
-    Some(f64::midpoint(below, middle))
+    middle(halves, count)
 }
 
-/// A few values in order: neighbors are exchanged, those at even places and at odd ones in turn (N. Haberman, "Parallel
-/// Neighbor Sort", 1972). Faster than to select, as no branch depends on the values.
-fn sorted<const N: usize>(values: &[f64]) -> [f64; N] {
-    let mut sorted = [f64::INFINITY; N];
-    sorted[..values.len()].copy_from_slice(values);
-    for round in 0..N {
-        for k in (round % 2..N - 1).step_by(2) {
-            let (a, b) = (sorted[k], sorted[k + 1]);
-            sorted[k] = if b < a { b } else { a };
-            sorted[k + 1] = if b < a { a } else { b };
-        }
-    }
-    sorted
-}
-
-fn middle(sorted: &[f64]) -> f64 {
-    let place = sorted.len() / 2;
-    if sorted.len() % 2 == 1 {
-        sorted[place]
-    } else {
-        f64::midpoint(sorted[place - 1], sorted[place])
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn medians_are_in_the_middle() {
-        for count in 1..40_usize {
-            let mut values: Vec<f64> = (0..count).map(|k| (k * 17 % 41) as f64).collect();
-            let mut sorted = values.clone();
-            sorted.sort_by(f64::total_cmp);
-            let expected = f64::midpoint(sorted[(count - 1) / 2], sorted[count / 2]);
-            assert_eq!(median(&mut values), Some(expected), "{count}");
-        }
-        assert_eq!(median(&mut []), None);
-    }
+/// The median of a value and those others that count.
+fn of_many(own: f64, others: impl Iterator<Item = (f64, bool)>) -> Option<f64> {
+    let others = others.filter(|&(_, counts)| counts).map(|(value, _)| value);
+    let all = std::iter::once(own).chain(others);
+    median(&mut all.filter(|value| !value.is_nan()).collect::<Vec<_>>())
 }

@@ -5,7 +5,8 @@ use super::candidates::{Candidates, by_vertex};
 use super::constants::{Constants, ROUGHNESS_RINGS};
 use super::gaps::Gaps;
 use super::geometry::{Spacing, Turns};
-use super::rings::{median, ring_median};
+use super::median::median;
+use super::rings::ring_median;
 use super::selection::Selection;
 
 /// What the first round found around each vertex; empty before.
