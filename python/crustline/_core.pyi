@@ -5,6 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "Curve",
     "Delaunay",
     "Interpolant",
     "Tree",
@@ -136,21 +137,31 @@ def join_chains(
 def is_canonical(edges: _Integers, points: int) -> bool: ...
 def medial_axis(
     delaunay: Delaunay,
-    edges: _Integers,
+    curve: Curve,
     threads: int | None = None,
     progress: _Progress | None = None,
 ) -> dict[str, NDArray[Any]]: ...
 
 @final
-class Interpolant:
+class Curve:
     def __new__(
         cls,
         delaunay: Delaunay,
         edges: _Integers,
         threads: int | None = None,
         progress: _Progress | None = None,
-    ) -> Interpolant: ...
+    ) -> Curve: ...
     def is_of(self, edges: _Integers) -> bool: ...
+
+@final
+class Interpolant:
+    def __new__(
+        cls,
+        delaunay: Delaunay,
+        curve: Curve,
+        threads: int | None = None,
+        progress: _Progress | None = None,
+    ) -> Interpolant: ...
     def sizes(self) -> _Floats: ...
     def certificate(
         self,

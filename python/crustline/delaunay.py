@@ -179,6 +179,17 @@ class Delaunay:
         made: Made = self._made[name]
         return made
 
+    def along(self, edges: IntArray) -> _core.Curve:
+        """Return edges as the core takes them, with each point's neighbors along them.
+
+        The latest are kept: the medial axis, the interpolant and the certificate ask for them.
+        """
+
+        def made_of_them(known: _core.Curve) -> bool:
+            return known.is_of(edges)
+
+        return self.cached("along", lambda: self.run(_core.Curve, edges), fits=made_of_them)
+
     @cached_property
     def triangles(self) -> NDArray[np.int64]:
         """Rows of `points` (t, 3), counter-clockwise."""

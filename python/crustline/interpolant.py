@@ -59,7 +59,8 @@ class Interpolant:
         self.points = delaunay.points
         self.edges = as_selected(delaunay, edges)
         self._how = delaunay._how
-        self._core = delaunay.run(_core.Interpolant, self.edges)
+        self._curve = delaunay.along(self.edges)
+        self._core = delaunay.run(_core.Interpolant, self._curve)
 
     @cached_property
     def local_feature_size(self) -> FloatArray:
@@ -145,7 +146,7 @@ def interpolant(delaunay: Delaunay, edges: IntArray) -> Interpolant:
     """Return the interpolant of edges; the triangulation keeps it for the next call."""
 
     def made_of_them(known: Interpolant) -> bool:
-        return known._core.is_of(edges)
+        return known._curve.is_of(edges)
 
     return delaunay.cached("interpolant", lambda: Interpolant(delaunay, edges), fits=made_of_them)
 

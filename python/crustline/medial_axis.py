@@ -372,7 +372,7 @@ def medial_axis(points: npt.ArrayLike | Delaunay, edges: npt.ArrayLike | None = 
     """
     delaunay = as_delaunay(points)
     selected = as_selected(delaunay, edges)
-    fields = delaunay.run(_core.medial_axis, selected)
+    fields = delaunay.run(_core.medial_axis, delaunay.along(selected))
     return MedialAxis(**fields, points=delaunay.points, selected=selected)
 
 

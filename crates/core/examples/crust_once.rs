@@ -7,7 +7,7 @@ use crustline_core::interpolant::Interpolant;
 use crustline_core::medial_axis::medial_axis;
 use crustline_core::methods::crust;
 use crustline_core::tiles::{self, Bounds, Question, Unseen};
-use crustline_core::{Delaunay, Point, Progress};
+use crustline_core::{Adjacency, Delaunay, Point, Progress};
 use std::time::Instant;
 
 struct Scatter(u64);
@@ -87,7 +87,10 @@ fn run(points: &[Point], wanted: &[String]) {
     );
     let edges = timed("crust", || crust(&delaunay, &progress).expect("no one cancels"), Vec::len);
     if wants("axis") {
-        let axis = || medial_axis(&delaunay, &edges, &progress).expect("no one cancels");
+        let axis = || {
+            medial_axis(&delaunay, &Adjacency::new(&delaunay, &edges), &progress)
+                .expect("no one cancels")
+        };
         timed("axis", axis, |axis| axis.edges.len());
     }
     if wants("tile") {
@@ -97,7 +100,8 @@ fn run(points: &[Point], wanted: &[String]) {
     if wants("certificate") {
         let certificate = || {
             let interpolant =
-                Interpolant::new(&delaunay, &edges, &progress).expect("no one cancels");
+                Interpolant::new(&delaunay, Adjacency::new(&delaunay, &edges).into(), &progress)
+                    .expect("no one cancels");
             ratios(&delaunay, &edges, &interpolant, &progress).expect("no one cancels")
         };
         timed("certificate", certificate, Vec::len);

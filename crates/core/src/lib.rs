@@ -32,6 +32,7 @@ pub mod tiles;
 pub mod trace;
 mod voronoi;
 
+pub use adjacency::Adjacency;
 pub use delaunay::Delaunay;
 pub use error::{Error, Result};
 // What the rest stands on, for those who measure it alone.

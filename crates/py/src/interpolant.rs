@@ -2,14 +2,15 @@
 
 use crate::arrays::{integer_rows, rows, values};
 use crate::call::Call;
+use crate::curve::Curve;
 use crate::delaunay::Delaunay;
 use crate::edges::canonical;
 use crate::threads::aside;
 use crustline_core as core;
 use crustline_core::certificate::{Reason, Theorem, Theorems, certify};
-use crustline_core::edges::Edges;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
+use std::sync::Arc;
 
 type Floats<'py> = Bound<'py, PyArray1<f64>>;
 type Codes<'py> = Bound<'py, PyArray1<u8>>;
@@ -20,36 +21,29 @@ type Certified<'py> = (Option<&'static str>, bool, Floats<'py>, Codes<'py>, Code
 #[pyclass(frozen, module = "crustline._core")]
 pub struct Interpolant {
     inner: core::interpolant::Interpolant,
-    edges: Edges,
+    curve: Py<Curve>,
     delaunay: Py<Delaunay>,
 }
 
 #[pymethods]
 impl Interpolant {
     #[new]
-    #[pyo3(signature = (delaunay, edges, threads=None, progress=None))]
+    #[pyo3(signature = (delaunay, curve, threads=None, progress=None))]
     fn new(
         py: Python<'_>,
         delaunay: Py<Delaunay>,
-        edges: PyReadonlyArray2<'_, i64>,
+        curve: Py<Curve>,
         threads: Option<usize>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
         let triangulation = delaunay.get().core();
         let size = triangulation.input_len();
-        let edges = canonical(py, threads, rows(py, &edges)?, size)?;
+        let adjacency = Arc::clone(&curve.get().adjacency);
         let call = Call { size, threads, callback: progress };
         let inner = call.run(py, |progress| {
-            core::interpolant::Interpolant::new(triangulation, &edges, progress)
+            core::interpolant::Interpolant::new(triangulation, adjacency, progress)
         })?;
-        Ok(Self { inner, edges, delaunay })
-    }
-
-    /// Was this made of `edges`, which are canonical?
-    fn is_of(&self, py: Python<'_>, edges: PyReadonlyArray2<'_, i64>) -> PyResult<bool> {
-        let edges = rows(py, &edges)?;
-        let same = |(own, edge): (&[u32; 2], &[i64; 2])| own.map(i64::from) == *edge;
-        Ok(edges.len() == self.edges.len() && self.edges.iter().zip(edges).all(same))
+        Ok(Self { inner, curve, delaunay })
     }
 
     /// The local feature size at each row.
@@ -78,8 +72,9 @@ impl Interpolant {
             crust.map(|edges| canonical(py, threads, rows(py, &edges)?, size)).transpose()?;
         let is_known = known.is_some();
         let call = Call { size, threads, callback: progress };
+        let edges = &self.curve.get().edges;
         let found = call.run(py, |progress| {
-            certify(delaunay, &self.edges, &self.inner, &theorems, known, progress)
+            certify(delaunay, edges, &self.inner, &theorems, known, progress)
         })?;
         let theorem = found.theorem.map(Theorem::method);
         let codes = [found.edges, found.points].map(|reasons| values(py, Reason::codes(reasons)));

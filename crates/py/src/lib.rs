@@ -3,6 +3,7 @@
 mod arrays;
 mod call;
 mod connect;
+mod curve;
 mod delaunay;
 mod edges;
 mod errors;
@@ -26,6 +27,8 @@ mod _core {
     use crate::arrays::first_not_finite;
     #[pymodule_export]
     use crate::connect::{connect, connection};
+    #[pymodule_export]
+    use crate::curve::Curve;
     #[pymodule_export]
     use crate::delaunay::Delaunay;
     #[pymodule_export]

@@ -1,26 +1,24 @@
 //! The medial axis of samples: a triangulation and edges in, arrays out.
 
-use crate::arrays::{coordinates, integer_rows, integers, rows, values};
+use crate::arrays::{coordinates, integer_rows, integers, values};
 use crate::call::Call;
+use crate::curve::Curve;
 use crate::delaunay::Delaunay;
-use crate::edges::canonical;
 use crustline_core::medial_axis::{MedialAxis, medial_axis as axis};
-use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 /// The medial axis as a dictionary of arrays, by the names of the fields.
 #[pyfunction]
-#[pyo3(signature = (delaunay, edges, threads=None, progress=None))]
+#[pyo3(signature = (delaunay, curve, threads=None, progress=None))]
 pub fn medial_axis<'py>(
     py: Python<'py>,
     delaunay: &Delaunay,
-    edges: PyReadonlyArray2<'py, i64>,
+    curve: &Curve,
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let core = delaunay.core();
-    let edges = canonical(py, threads, rows(py, &edges)?, core.input_len())?;
     let call = Call { size: core.input_len(), threads, callback: progress };
     let MedialAxis {
         vertices,
@@ -31,7 +29,7 @@ pub fn medial_axis<'py>(
         ray_origins,
         ray_directions,
         ray_samples,
-    } = call.run(py, |progress| axis(core, &edges, progress))?;
+    } = call.run(py, |progress| axis(core, &curve.adjacency, progress))?;
     let fields = PyDict::new(py);
     fields.set_item("vertices", coordinates(py, vertices)?)?;
     fields.set_item("radii", values(py, radii))?;

@@ -8,9 +8,10 @@ use crate::medial_axis::MedialAxis;
 use crate::methods::select;
 use crustline_core::edges::{self as pairs, Edges};
 use crustline_core::interpolant::Interpolant;
-use crustline_core::{self as core, Point, methods};
+use crustline_core::{self as core, Adjacency, Point, methods};
 use std::cell::RefCell;
 use std::rc::Rc;
+use std::sync::Arc;
 use wasm_bindgen::prelude::*;
 
 /// A Delaunay triangulation, made once and read by many. `free` gives its memory back.
@@ -121,8 +122,8 @@ impl Delaunay {
     /// Edges that join no two different rows.
     #[wasm_bindgen(js_name = medialAxis)]
     pub fn medial_axis(&self, edges: &[u32]) -> Thrown<MedialAxis> {
-        let edges = self.edges_of(edges)?;
-        Ok(run(|progress| core::medial_axis::medial_axis(&self.inner, &edges, progress))?.into())
+        let curve = Adjacency::new(&self.inner, &self.edges_of(edges)?);
+        Ok(run(|progress| core::medial_axis::medial_axis(&self.inner, &curve, progress))?.into())
     }
 
     /// The local feature size at each row: not a number at isolated points, 0 at branches.
@@ -182,7 +183,8 @@ impl Delaunay {
         {
             return Ok(Rc::clone(smooth));
         }
-        let smooth = Rc::new(run(|progress| Interpolant::new(&self.inner, edges, progress))?);
+        let curve = Arc::new(Adjacency::new(&self.inner, edges));
+        let smooth = Rc::new(run(|progress| Interpolant::new(&self.inner, curve, progress))?);
         *self.smooth.borrow_mut() = Some((edges.clone(), Rc::clone(&smooth)));
         Ok(smooth)
     }

@@ -1,7 +1,7 @@
 //! Where the theorem holds, the crust is right: rings of it that are sampled densely enough are taken as they are.
 
 use super::constants::{MARGIN, PROVEN};
-use crate::adjacency::{Incidence, vertices_of_rows};
+use crate::adjacency::{Adjacency, Incidence, vertices_of_rows};
 use crate::certify::ratios;
 use crate::delaunay::Delaunay;
 use crate::edges::Edges;
@@ -10,6 +10,7 @@ use crate::interpolant::Interpolant;
 use crate::point::{dot, length, sub};
 use crate::progress::Progress;
 use std::collections::HashSet;
+use std::sync::Arc;
 
 /// Put the rings of the crust that the theorem covers and that one may take into `edges`, which are canonical.
 ///
@@ -33,7 +34,8 @@ pub fn guard(
     if rings.is_empty() {
         return Ok(edges);
     }
-    let interpolant = Interpolant::new(delaunay, crust, progress)?;
+    let interpolant =
+        Interpolant::new(delaunay, Arc::new(Adjacency::new(delaunay, crust)), progress)?;
     let ratios = ratios(delaunay, crust, &interpolant, progress)?;
     let is_proven = |side: [u32; 2]| {
         let number = crust.binary_search(&side).expect("rings of the crust are made of its edges");

@@ -68,7 +68,13 @@ impl Delaunay {
     /// For each vertex the number of triangles whose smallest corner is smaller, and last the number of all.
     #[must_use]
     pub fn first_triangles(&self) -> Vec<u32> {
-        let count = |p: u32| self.triangles_from(p).count() as u32;
+        let count = |p: u32| {
+            let star = self.star(p);
+            let Some(last) = star.neighbors.len().checked_sub(1) else { return 0 };
+            let own = |q: u32, r: u32| u32::from(p < q.min(r));
+            let between: u32 = star.neighbors.windows(2).map(|pair| own(pair[0], pair[1])).sum();
+            between + star.left(last).map_or(0, |first| own(star.neighbors[last], first))
+        };
         let vertices = (0..self.points.len() as u32).into_par_iter();
         let mut first: Vec<u32> = vertices.with_min_len(GRAIN).map(count).collect();
         let mut sum = 0;

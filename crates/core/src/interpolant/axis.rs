@@ -45,7 +45,8 @@ impl<'a> Part<'a> {
         bends: &'a [Option<Bend>],
         vertices: std::ops::Range<u32>,
     ) -> Self {
-        let disks = vertices.clone().map(|v| disks(delaunay, bends, v)).collect();
+        let mut others = Vec::new();
+        let disks = vertices.clone().map(|v| disks(delaunay, bends, v, &mut others)).collect();
         Self { delaunay, bends, vertices, disks }
     }
 
@@ -53,7 +54,7 @@ impl<'a> Part<'a> {
         if self.vertices.contains(&v) {
             self.disks[(v - self.vertices.start) as usize].sides[side]
         } else {
-            disks(self.delaunay, self.bends, v).sides[side]
+            disks(self.delaunay, self.bends, v, &mut Vec::new()).sides[side]
         }
     }
 

@@ -37,11 +37,18 @@ pub struct Disks {
 }
 
 /// The largest empty disks at vertex `v`.
-pub fn disks(delaunay: &Delaunay, bends: &[Option<Bend>], v: u32) -> Disks {
+///
+/// `others` is memory to work in.
+pub fn disks(
+    delaunay: &Delaunay,
+    bends: &[Option<Bend>],
+    v: u32,
+    others: &mut Vec<Other>,
+) -> Disks {
     let Some(bend) = &bends[v as usize] else { return Disks::default() };
     let near = Near::new(delaunay, bends, v, bend);
     let mut disks = Disks::default();
-    let far = far_curvatures(delaunay, bends, v, &near);
+    let far = far_curvatures(delaunay, bends, v, &near, others);
     for (side, (sign, far)) in [1.0, -1.0].into_iter().zip(far).enumerate() {
         let mut curvature = near.curvature(sign).max(far);
         if near.is_sparse {
@@ -179,34 +186,47 @@ impl<'a> Near<'a> {
     }
 }
 
+/// A neighbor of a sample that is not adjacent to it.
+#[derive(Debug)]
+pub struct Other {
+    vertex: u32,
+    /// From the sample.
+    d: Point,
+    /// To the left or to the right of the curve.
+    side: usize,
+    /// The curvature of the disk that touches at the sample and passes through it.
+    through: f64,
+}
+
 /// On each side the largest curvature of a disk that touches at `v` and meets another part of the curve.
 fn far_curvatures(
     delaunay: &Delaunay,
     bends: &[Option<Bend>],
     v: u32,
     near: &Near<'_>,
+    others: &mut Vec<Other>,
 ) -> [f64; 2] {
     let (s, normal) = (delaunay.point(v), near.bend.normal());
-    let others = || {
-        let vertices = delaunay.star(v).neighbors.iter().copied();
-        vertices.filter(|q| !near.samples[..2].contains(&Some(*q))).filter_map(|q| {
-            let d = sub(delaunay.point(q), s);
-            let height = dot(normal, d);
-            let through = 2.0 * height.abs() / dot(d, d);
-            let counts = through > 0.0 && !near.passes_over(bends[q as usize].as_ref(), d);
-            counts.then_some((q, d, usize::from(height < 0.0), through))
-        })
-    };
     let mut largest: [f64; 2] = [0.0; 2];
-    for (_, _, side, through) in others() {
-        largest[side] = largest[side].max(through);
-    }
-    for (q, d, side, through) in others().filter(|&(q, ..)| !near.samples.contains(&Some(q))) {
-        // Most neighbors are far beyond reach of the disk.
-        let Some(other) = bends[q as usize].as_ref().filter(|_| DENT * through > largest[side])
-        else {
+    others.clear();
+    for &vertex in delaunay.star(v).neighbors {
+        if near.samples[..2].contains(&Some(vertex)) {
             continue;
-        };
+        }
+        let d = sub(delaunay.point(vertex), s);
+        let height = dot(normal, d);
+        let (side, through) = (usize::from(height < 0.0), 2.0 * height.abs() / dot(d, d));
+        if through > 0.0 && !near.passes_over(bends[vertex as usize].as_ref(), d) {
+            largest[side] = largest[side].max(through);
+            others.push(Other { vertex, d, side, through });
+        }
+    }
+    for &Other { vertex, d, side, through } in &*others {
+        // Most neighbors are far beyond reach of the disk.
+        if DENT * through <= largest[side] || near.samples.contains(&Some(vertex)) {
+            continue;
+        }
+        let Some(other) = &bends[vertex as usize] else { continue };
         let normal = if side == 0 { normal } else { normal.map(|x| -x) };
         if let Some(curvature) = touching_both(normal, d, through, other, largest[side]) {
             largest[side] = curvature;

@@ -12,7 +12,6 @@ mod stencil;
 
 use crate::adjacency::Adjacency;
 use crate::delaunay::Delaunay;
-use crate::edges::Edges;
 use crate::error::Result;
 use crate::memory;
 use crate::parts::{GRAIN, try_each};
@@ -22,6 +21,7 @@ use crate::space::tree::Tree;
 use axis::axis;
 pub use bend::Bend;
 use bend::bends;
+use std::sync::Arc;
 use stencil::{Scale, stencil};
 
 /// Memory for each vertex at the peak, about.
@@ -30,7 +30,7 @@ const BYTES: usize = 288;
 /// The smooth interpolant of edges, its medial axis, and the local feature size at the vertices.
 #[derive(Debug)]
 pub struct Interpolant {
-    curve: Adjacency,
+    curve: Arc<Adjacency>,
     bends: Vec<Option<Bend>>,
     tree: Tree,
     /// For each vertex the nearest segment of the axis, and the distance.
@@ -38,13 +38,12 @@ pub struct Interpolant {
 }
 
 impl Interpolant {
-    /// Of the curves along `edges`, which are canonical. O(n log n).
+    /// Of `curve`, whose neighbors may be of use elsewhere. O(n log n).
     ///
     /// # Errors
     /// A cancelled `progress`.
-    pub fn new(delaunay: &Delaunay, edges: &Edges, progress: &Progress) -> Result<Self> {
+    pub fn new(delaunay: &Delaunay, curve: Arc<Adjacency>, progress: &Progress) -> Result<Self> {
         memory::check(delaunay.points().len(), BYTES)?;
-        let curve = Adjacency::new(delaunay, edges);
         let scale = Scale::of(delaunay.points());
         let stencil = stencil(delaunay, &curve, &scale, progress)?;
         progress.enter(Stage::Interpolate, 5 * delaunay.points().len())?;

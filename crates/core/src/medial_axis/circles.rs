@@ -33,11 +33,13 @@ impl Circles {
         let errors = split(&mut circles.errors, triangle_parts(first));
         let parts = centers.into_iter().zip(radii).zip(errors).collect();
         try_each(parts, |k, ((centers, radii), errors)| {
-            let slots = centers.iter_mut().zip(radii).zip(errors);
-            let triangles = vertices_of_part(first, k).flat_map(|p| delaunay.triangles_from(p));
-            triangles.zip(slots).for_each(|(triangle, ((center, radius), error))| {
-                (*center, *radius, *error) = circle(delaunay, triangle);
-            });
+            let mut slots = centers.iter_mut().zip(radii).zip(errors);
+            for p in vertices_of_part(first, k) {
+                for (triangle, slot) in delaunay.triangles_from(p).zip(&mut slots) {
+                    let ((center, radius), error) = slot;
+                    (*center, *radius, *error) = circle(delaunay, triangle);
+                }
+            }
             progress.advance(vertices_of_part(first, k).len())
         })?;
         Ok(circles)

@@ -8,7 +8,6 @@ mod far;
 
 use crate::adjacency::{Adjacency, vertices_of_rows};
 use crate::delaunay::{Delaunay, NONE};
-use crate::edges::Edges;
 use crate::error::Result;
 use crate::exact::predicates::in_circle;
 use crate::forest::Forest;
@@ -23,7 +22,7 @@ pub use far::MedialAxis;
 use std::cell::OnceCell;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
-/// The Voronoi edges whose dual is not in `edges`, which are canonical.
+/// The Voronoi edges whose dual is not an edge of `curve`.
 ///
 /// Voronoi edges of length zero, between triangles on exactly one circle, are left out and their ends are one vertex. Where
 /// all points lie on one line, an edge that is not selected has two opposite rays from its midpoint as its dual.
@@ -31,20 +30,23 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 ///
 /// # Errors
 /// A cancelled `progress`.
-pub fn medial_axis(delaunay: &Delaunay, edges: &Edges, progress: &Progress) -> Result<MedialAxis> {
+pub fn medial_axis(
+    delaunay: &Delaunay,
+    curve: &Adjacency,
+    progress: &Progress,
+) -> Result<MedialAxis> {
     memory::check(delaunay.points().len(), BYTES)?;
-    let curve = Adjacency::new(delaunay, edges);
     let first = delaunay.first_triangles();
     if first.last() == Some(&0) {
-        return Ok(of_line(delaunay, &curve));
+        return Ok(of_line(delaunay, curve));
     }
-    let flips = flipping(delaunay, &curve, progress)?;
+    let flips = flipping(delaunay, curve, progress)?;
     // The vertices for circles, for ties, for steps to the left, for edges and twice in the order of the rows.
     progress.enter(Stage::Axis, 6 * delaunay.points().len())?;
     let circles = Circles::new(delaunay, &first, progress)?;
     let wedges = delaunay.wedge_triangles(&first);
     drop(first);
-    let mesh = Mesh { delaunay, wedges: &wedges, curve: &curve, flips: &flips };
+    let mesh = Mesh { delaunay, wedges: &wedges, curve, flips: &flips };
     let centers = one_for_each_circle(&mesh, &circles, progress)?;
     let inside = inside(&mesh, progress)?;
     let found = OfVertices::new(inside.len(), progress, |p, found| {

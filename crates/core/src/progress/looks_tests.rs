@@ -116,12 +116,15 @@ fn calls<'a>(points: &'a [Point], delaunay: &'a Delaunay, edges: &'a Edges) -> V
     calls.push(("triangulate", Box::new(move |p: &Progress| Delaunay::new(points, p).map(|_| ()))));
     calls.push((
         "medial-axis",
-        Box::new(move |p: &Progress| medial_axis::medial_axis(delaunay, edges, p).map(|_| ())),
+        Box::new(move |p: &Progress| {
+            medial_axis::medial_axis(delaunay, &Adjacency::new(delaunay, edges), p).map(|_| ())
+        }),
     ));
     calls.push((
         "certify",
         Box::new(move |p: &Progress| {
-            let interpolant = Interpolant::new(delaunay, edges, p)?;
+            let interpolant =
+                Interpolant::new(delaunay, Adjacency::new(delaunay, edges).into(), p)?;
             certify::ratios(delaunay, edges, &interpolant, p).map(|_| ())
         }),
     ));

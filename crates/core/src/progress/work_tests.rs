@@ -11,6 +11,7 @@ use crate::tiles::{self, Decision, Question, Unseen};
 use crate::{certify, medial_axis, methods};
 use std::cell::Cell;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// Looking at a Voronoi cell.
 pub const CELL: usize = 100;
@@ -119,12 +120,16 @@ fn works(points: &[Point]) -> Vec<(&'static str, usize)> {
     for (name, parameters) in NAMES {
         measure(name, &|| drop(methods::select(&delaunay, name, parameters, &quiet)));
     }
-    measure("medial axis", &|| drop(medial_axis::medial_axis(&delaunay, &edges, &quiet)));
+    measure("medial axis", &|| {
+        let curve = Adjacency::new(&delaunay, &edges);
+        medial_axis::medial_axis(&delaunay, &curve, &quiet).expect("no one cancels");
+    });
     measure("tiles", &|| drop(tile(&delaunay)));
     measure("certificate", &|| {
-        let interpolant = Interpolant::new(&delaunay, &edges, &quiet).expect("no one cancels");
+        let curve = Arc::new(Adjacency::new(&delaunay, &edges));
+        let interpolant =
+            Interpolant::new(&delaunay, curve.clone(), &quiet).expect("no one cancels");
         certify::ratios(&delaunay, &edges, &interpolant, &quiet).expect("no one cancels");
-        let curve = Adjacency::new(&delaunay, &edges);
         methods::is_beta_skeleton(&delaunay, 1.7, &curve, &quiet).expect("no one cancels");
     });
     works

@@ -105,8 +105,12 @@ impl Bounds {
     #[inline]
     #[must_use]
     pub fn least_square(&self, other: &Self) -> f64 {
+        // One instruction, where `f64::max` cares for what is not a number.
+        let larger = |a: f64, b: f64| if a > b { a } else { b };
         let gap = |axis: usize| {
-            (self.low[axis] - other.high[axis]).max(other.low[axis] - self.high[axis]).max(0.0)
+            let [below, above] =
+                [self.low[axis] - other.high[axis], other.low[axis] - self.high[axis]];
+            larger(larger(below, above), 0.0)
         };
         gap(0).powi(2) + gap(1).powi(2)
     }

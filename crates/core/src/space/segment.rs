@@ -50,21 +50,37 @@ impl Segment {
     /// The one segment that stands for both, if they are in line and leave no gap.
     #[must_use]
     pub fn joined(&self, other: &Self) -> Option<Self> {
-        let (ends, gap) = self.span(other);
+        // What is long is told first: nearly all pairs are far apart, and the gap takes three roots.
+        let ends = self.span(other);
+        if self.is_long(other, ends) {
+            return None;
+        }
+        let gap = length(sub(ends[1], ends[0])) - self.ends_apart() - other.ends_apart();
         if gap > FLAT * self.radius.min(other.radius) {
             return None;
         }
         self.replaced(other, ends)
     }
 
+    fn ends_apart(&self) -> f64 {
+        length(sub(self.ends[1], self.ends[0]))
+    }
+
+    /// Is a segment between `ends` too long to stand for both?
+    #[inline]
+    fn is_long(&self, other: &Self, ends: [Point; 2]) -> bool {
+        let along = sub(ends[1], ends[0]);
+        dot(along, along) > (LONG * self.radius.min(other.radius)).powi(2)
+    }
+
     /// The segment between `ends` in place of both, if it is short and near enough to stand for them.
     fn replaced(&self, other: &Self, ends: [Point; 2]) -> Option<Self> {
+        if self.is_long(other, ends) {
+            return None;
+        }
         let radius = self.radius.min(other.radius);
         let along = sub(ends[1], ends[0]);
         let square = dot(along, along);
-        if square > (LONG * radius).powi(2) {
-            return None;
-        }
         let off = |end: &Point| cross(along, sub(*end, ends[0])).abs();
         let farthest = self.ends.iter().chain(&other.ends).map(off).fold(0.0, f64::max);
         let farthest = if square > 0.0 { farthest / square.sqrt() } else { 0.0 };
@@ -72,8 +88,8 @@ impl Segment {
         (slack <= FLAT * radius).then_some(Self { ends, radius, slack })
     }
 
-    /// The ends, of both segments, that are farthest apart along them, and the length that neither covers.
-    fn span(&self, other: &Self) -> ([Point; 2], f64) {
+    /// The ends, of both segments, that are farthest apart along them.
+    fn span(&self, other: &Self) -> [Point; 2] {
         let ([a, b], [c, d]) = (self.ends, other.ends);
         let (own, more) = (sub(b, a), sub(d, c));
         let sign = if dot(own, more) < 0.0 { -1.0 } else { 1.0 };
@@ -90,7 +106,7 @@ impl Segment {
                 last = (end, place);
             }
         }
-        ([first.0, last.0], length(sub(last.0, first.0)) - length(own) - length(more))
+        [first.0, last.0]
     }
 }
 

@@ -134,7 +134,7 @@ impl Tree {
 #[derive(Debug, Clone, Copy)]
 struct Node {
     square: f64,
-    level: usize,
+    level: u32,
     number: u32,
 }
 
@@ -156,9 +156,10 @@ impl Search<'_> {
             if node.square >= best * (1.0 - self.tree.gain) {
                 continue;
             }
-            let children = self.tree.boxes.children(node.level, node.number);
-            if node.level > 0 {
-                self.push(p, best, node.level - 1, children);
+            let level = node.level as usize;
+            let children = self.tree.boxes.children(level, node.number);
+            if level > 0 {
+                self.push(p, best, level - 1, children);
                 continue;
             }
             let (first, end) = (children.start as usize, children.end as usize);
@@ -176,10 +177,11 @@ impl Search<'_> {
     fn push(&mut self, p: Point, best: f64, level: usize, nodes: impl Iterator<Item = u32>) {
         let start = self.stack.len();
         let boxes = self.tree.boxes.level(level);
+        let most = best * (1.0 - self.tree.gain);
         for number in nodes {
             let square = boxes[number as usize].square_to(p);
-            if square < best * (1.0 - self.tree.gain) {
-                self.stack.push(Node { square, level, number });
+            if square < most {
+                self.stack.push(Node { square, level: level as u32, number });
             }
         }
         if self.stack.len() > start + 1 {
@@ -224,8 +226,14 @@ fn hilbert(x: u16, y: u16) -> u64 {
 fn joined(segments: &[Segment], order: &[u32]) -> Vec<Segment> {
     let part = |order: &[u32]| {
         let mut kept = Vec::with_capacity(order.len());
-        for &k in order {
-            push(&mut kept, segments[k as usize], Segment::joined);
+        let mut near = Vec::with_capacity(RUN);
+        // Runs are read at once, so that the processor waits for many places of memory at a time.
+        for run in order.chunks(RUN) {
+            near.clear();
+            near.extend(run.iter().map(|&k| segments[k as usize]));
+            for &next in &near {
+                push(&mut kept, next, Segment::joined);
+            }
         }
         kept
     };

@@ -10,7 +10,7 @@ use crustline_core::nesting::shells;
 use crustline_core::predicates::{in_circle, orientation};
 use crustline_core::tiles::{Bounds, Crust, Question, Unseen, decide};
 use crustline_core::trace::trace;
-use crustline_core::{Delaunay, Error, Point, Progress, methods};
+use crustline_core::{Adjacency, Delaunay, Error, Point, Progress, methods};
 use std::cmp::Ordering;
 
 /// A body by the name of its target.
@@ -214,7 +214,9 @@ fn with_edges(data: &[u8]) -> Option<(Delaunay, Edges)> {
 fn certifying(data: &[u8]) {
     let Some((delaunay, edges)) = with_edges(data) else { return };
     let progress = Progress::default();
-    let interpolant = Interpolant::new(&delaunay, &edges, &progress).expect("no one cancels");
+    let interpolant =
+        Interpolant::new(&delaunay, Adjacency::new(&delaunay, &edges).into(), &progress)
+            .expect("no one cancels");
     let ratios = ratios(&delaunay, &edges, &interpolant, &progress).expect("no one cancels");
     assert_eq!(ratios.len(), edges.len());
     assert!(ratios.iter().all(|ratio| ratio.is_nan() || *ratio >= 0.0));
@@ -225,7 +227,8 @@ fn certifying(data: &[u8]) {
 fn axis(data: &[u8]) {
     let Some((delaunay, edges)) = with_edges(data) else { return };
     let progress = Progress::default();
-    let axis = medial_axis(&delaunay, &edges, &progress).expect("no one cancels");
+    let axis = medial_axis(&delaunay, &Adjacency::new(&delaunay, &edges), &progress)
+        .expect("no one cancels");
     assert!(axis.vertices.iter().flatten().chain(&axis.radii).all(|x| x.is_finite()));
     let count = axis.vertices.len() as u32;
     assert!(axis.edges.iter().flatten().chain(&axis.ray_origins).all(|&v| v < count));
