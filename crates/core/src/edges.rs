@@ -3,7 +3,7 @@
 use crate::delaunay::{Delaunay, Edge};
 use crate::error::Result;
 use crate::memory;
-use crate::parts::{GRAIN, each, in_parts, scatter, split};
+use crate::parts::{GRAIN, each, in_parts, scatter, short, split};
 use crate::progress::{Progress, Stage};
 
 /// Memory for each vertex at the peak, if up to three edges each are kept and sorted.
@@ -30,9 +30,11 @@ pub fn select<S>(
     let parts = in_parts(vertices, GRAIN, progress, |vertices| {
         let mut memory = scratch();
         let mut kept = Vec::with_capacity(vertices.len());
-        for p in vertices {
-            let edges = delaunay.edges_from(p as u32).filter(|&edge| keep(&mut memory, edge));
-            kept.extend(edges.map(|edge| rows(delaunay, edge.p, edge.q)));
+        for few in short(vertices, progress) {
+            for p in few {
+                let edges = delaunay.edges_from(p as u32).filter(|&edge| keep(&mut memory, edge));
+                kept.extend(edges.map(|edge| rows(delaunay, edge.p, edge.q)));
+            }
         }
         kept
     })?;

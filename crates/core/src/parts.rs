@@ -13,8 +13,18 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 /// Items in a part, where there is no reason for another number.
 pub const GRAIN: usize = 1 << 12;
 
+/// Items between two looks at whether to stop, within a part: some of them can take a millisecond each.
+const FEW: usize = 64;
+
 /// Tasks that all parts are shared out among, where each has to know what others do.
 const TASKS: usize = 8;
+
+/// The successive short ranges of `range`, until someone asks to stop.
+pub fn short(range: Range<usize>, progress: &Progress) -> impl Iterator<Item = Range<usize>> {
+    let Range { start, end } = range;
+    let starts = (start..end).step_by(FEW).take_while(|_| progress.goes_on());
+    starts.map(move |start| start..(start + FEW).min(end))
+}
 
 /// What `work` makes of each successive range of `grain` of the numbers below `count`.
 ///
@@ -52,8 +62,11 @@ pub fn map<T: Clone + Send>(
 ) -> Result<Vec<T>> {
     let mut values = vec![empty; count];
     try_each(values.chunks_mut(GRAIN).collect(), |k, part| {
-        for (j, slot) in part.iter_mut().enumerate() {
-            *slot = value(k * GRAIN + j);
+        let first = k * GRAIN;
+        for range in short(first..first + part.len(), progress) {
+            for j in range {
+                part[j - first] = value(j);
+            }
         }
         progress.advance(part.len())
     })?;
@@ -70,8 +83,9 @@ pub fn all(
     condition: impl Fn(usize) -> bool + Sync,
 ) -> Result<bool> {
     let fails = AtomicBool::new(false);
-    in_parts(count, GRAIN, progress, |mut numbers| {
-        if !fails.load(Relaxed) && !numbers.all(&condition) {
+    in_parts(count, GRAIN, progress, |numbers| {
+        let mut few = short(numbers, progress);
+        if !fails.load(Relaxed) && !few.all(|mut numbers| numbers.all(&condition)) {
             fails.store(true, Relaxed);
         }
     })?;

@@ -90,6 +90,16 @@ impl Progress {
         self.cancelled.load(Relaxed)
     }
 
+    /// Did no one ask to stop? For loops within a part, whose result is then of no use.
+    #[cfg_attr(test, track_caller)]
+    #[inline]
+    #[must_use]
+    pub fn goes_on(&self) -> bool {
+        #[cfg(test)]
+        self.looks.note();
+        !self.is_cancelled()
+    }
+
     /// Report `units` of work as done.
     ///
     /// # Errors

@@ -8,7 +8,7 @@ use crate::exact::angle::Angle;
 use crate::exact::filter::{self, UNDERFLOW};
 use crate::exact::pencil::{Circle, Disk, Pencil, Vertex};
 use crate::exact::sign::{self, Form, Number};
-use crate::parts::{GRAIN, in_parts};
+use crate::parts::in_parts;
 use crate::point::{Point, cross, dot, sub};
 use crate::progress::Progress;
 use crate::space::region::Region;
@@ -69,7 +69,7 @@ pub(crate) fn find_late<T: Send>(
     make: impl Fn(Edge, &Verdict) -> Option<T> + Sync,
 ) -> Result<Vec<Vec<T>>> {
     let index = VoronoiVertices::new(delaunay, progress)?;
-    in_parts(late.len(), GRAIN, &progress.quiet(), |range| {
+    in_parts(late.len(), BATCH, &progress.quiet(), |range| {
         let mut made = Vec::new();
         find_disks(delaunay, &late[range], &index, |edge, verdict| {
             made.extend(make(edge, verdict));
@@ -85,22 +85,20 @@ pub(super) fn find_disks(
     index: &VoronoiVertices,
     mut tell: impl FnMut(Edge, &Verdict),
 ) {
-    for batch in edges.chunks(BATCH) {
-        let search = |&edge| Search::new(delaunay, edge, own_triangle(delaunay, edge));
-        let mut searches: Vec<Search> = batch.iter().map(search).collect();
-        while !searches.is_empty() {
-            let mut found = look_up(delaunay, &searches, index).into_iter();
-            searches.retain_mut(|search| {
-                let verdict = match found.next().flatten() {
-                    None => Some(Verdict::In(search.circle)),
-                    Some(triangle) => search.exclude(delaunay, search.vertex(delaunay, triangle)),
-                };
-                if let Some(verdict) = &verdict {
-                    tell(search.edge, verdict);
-                }
-                verdict.is_none()
-            });
-        }
+    let search = |&edge| Search::new(delaunay, edge, own_triangle(delaunay, edge));
+    let mut searches: Vec<Search> = edges.iter().map(search).collect();
+    while !searches.is_empty() {
+        let mut found = look_up(delaunay, &searches, index).into_iter();
+        searches.retain_mut(|search| {
+            let verdict = match found.next().flatten() {
+                None => Some(Verdict::In(search.circle)),
+                Some(triangle) => search.exclude(delaunay, search.vertex(delaunay, triangle)),
+            };
+            if let Some(verdict) = &verdict {
+                tell(search.edge, verdict);
+            }
+            verdict.is_none()
+        });
     }
 }
 

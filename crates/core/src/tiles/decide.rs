@@ -8,7 +8,7 @@ use crate::adjacency::vertices_of_rows;
 use crate::delaunay::{Delaunay, Edge};
 use crate::edges::{Edges, rows, select, sort};
 use crate::error::Result;
-use crate::parts::{GRAIN, in_parts};
+use crate::parts::{GRAIN, in_parts, short};
 use crate::point::{Point, length, sub};
 use crate::progress::{Progress, Stage};
 use crate::space::bounds::Bounds;
@@ -64,7 +64,13 @@ pub fn decide<R: Rule>(
     let tile = Tile::new(delaunay, rule, question);
     progress.enter(Stage::Select, delaunay.points().len())?;
     let vertices = delaunay.points().len();
-    let mut parts = in_parts(vertices, GRAIN, progress, |vertices| tile.part(vertices))?;
+    let mut parts = in_parts(vertices, GRAIN, progress, |vertices| {
+        let mut part = (Part::default(), R::Memory::default());
+        for few in short(vertices, progress) {
+            tile.part(few, &mut part);
+        }
+        part.0
+    })?;
     parts.push(tile.pairs());
     parts.push(tile.late(&parts, progress)?);
     Ok(tile.collect(parts))
@@ -145,8 +151,7 @@ impl<'a, R: Rule> Tile<'a, R> {
         Self { delaunay, rule, question, reach, flags }
     }
 
-    fn part(&self, vertices: Range<usize>) -> Part {
-        let (mut part, mut memory) = (Part::default(), R::Memory::default());
+    fn part(&self, vertices: Range<usize>, (part, memory): &mut (Part, R::Memory)) {
         for p in vertices.start as u32..vertices.end as u32 {
             let [p_own, p_fresh] = self.flags[p as usize];
             let wanted = |edge: &Edge| {
@@ -154,13 +159,12 @@ impl<'a, R: Rule> Tile<'a, R> {
                 p_own && q_fresh || q_own && p_fresh
             };
             for edge in self.delaunay.edges_from(p).filter(wanted) {
-                self.decide_edge(edge, &mut memory, &mut part);
+                self.decide_edge(edge, memory, part);
             }
             if p_own && let Some(partners) = self.unseen_partners(p) {
                 part.open_vertices.push((p, partners));
             }
         }
-        part
     }
 
     fn pairs(&self) -> Part {
