@@ -232,3 +232,37 @@ impl Curves {
         sorted
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_edge_is_in_one_curve_and_every_point_without_one_is_isolated() {
+        let mut state = 5u64;
+        let mut random = |limit: u64| {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 20) % limit
+        };
+        for _ in 0..500 {
+            let count = 2 + random(9) as u32;
+            let points: Vec<Point> =
+                (0..count).map(|k| [f64::from(k), random(20) as f64]).collect();
+            let pairs = (0..count).flat_map(|p| (p + 1..count).map(move |q| [p, q]));
+            let edges: Vec<[u32; 2]> = pairs.filter(|_| random(3) == 0).collect();
+            let curves = trace(&points, &edges, &Progress::default()).expect("no one cancels");
+            let mut walked = Vec::new();
+            for (k, ends) in curves.offsets.windows(2).enumerate() {
+                let mut rows = curves.indices[ends[0]..ends[1]].to_vec();
+                rows.extend(curves.closed[k].then_some(rows[0]));
+                walked.extend(rows.windows(2).map(|ab| [ab[0].min(ab[1]), ab[0].max(ab[1])]));
+            }
+            walked.sort_unstable();
+            assert_eq!(walked, edges);
+            let is_alone = |row: &u32| edges.iter().all(|edge| !edge.contains(row));
+            assert_eq!(curves.isolated, (0..count).filter(is_alone).collect::<Vec<_>>());
+        }
+    }
+}

@@ -126,3 +126,17 @@ impl<T: Number> HomogeneousCenter<T> {
         Self { at: [a[0].times(&w).plus(&x), a[1].times(&w).plus(&y)], w }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::sign::tests::assert_bounded;
+
+    #[test]
+    fn values_are_within_their_bounds() {
+        for axis in [0, 1] {
+            assert_bounded(&Numerator { axis });
+        }
+        assert_bounded(&Denominator);
+    }
+}

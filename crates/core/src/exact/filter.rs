@@ -113,3 +113,25 @@ impl Number for Approximate {
         Self::after(self.value * other.value, inherited)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quotient_is_off_by_no_more_than_it_says() {
+        for (a, b) in [(100.0, 2.0), (-3.0, 7.0), (1e-5, -1e3), (5.0, 5.0)] {
+            for (off, part) in [(10.0, 0.01), (0.1, 0.2), (0.0, 0.1), (3.0, 0.0)] {
+                let [x, y] = [Approximate::of(a, off), Approximate::of(b, part * f64::abs(b))];
+                let quotient = x.over(&y);
+                assert!(quotient.error < 100.0 * (off + f64::abs(a)) / f64::abs(b));
+                for (i, j) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+                    let exact = (a + i * off) / (b * (1.0 + j * part));
+                    assert!((exact - quotient.value).abs() <= quotient.error + 1e-12);
+                }
+            }
+        }
+        let unsure = Approximate::of(1.0, 0.0).over(&Approximate::of(1.0, 0.5));
+        assert!(unsure.error.is_infinite());
+    }
+}

@@ -379,3 +379,23 @@ impl Form<7> for Inside {
         place(q, [a, b, c]).excess(&place(q, [d, e, f]))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::sign::tests::assert_bounded;
+
+    #[test]
+    fn values_are_within_their_bounds() {
+        for side in [1, -1] {
+            assert_bounded(&Turned { side });
+        }
+        for axis in [0, 1] {
+            assert_bounded(&CenterThrough { axis });
+        }
+        assert_bounded(&Power);
+        assert_bounded(&PlaceTwice);
+        assert_bounded(&Side);
+        assert_bounded(&Inside);
+    }
+}

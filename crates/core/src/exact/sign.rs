@@ -160,8 +160,32 @@ fn big_quotient<const N: usize>(
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
+
+    /// Does the bound of `form` hold, for coordinates of many sizes and for the largest there are? Its integers overflow if it does not.
+    pub(crate) fn assert_bounded<const N: usize>(form: &impl Form<N>) {
+        let mut state = 7u64;
+        let mut random = |limit: u64| {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 20) % limit
+        };
+        for k in 0..4000 {
+            let bits = 1 + k % 30;
+            let most = (1i64 << bits) - 1;
+            let mut coordinate = || match random(4) {
+                0 => most,
+                1 => -most,
+                2 => 0,
+                _ => random(2 * most as u64 + 1) as i64 - most,
+            };
+            let at: [[BigInt; 2]; N] =
+                std::array::from_fn(|_| [0, 1].map(|_| BigInt::from(coordinate())));
+            assert!(form.value(&at).bits() <= u64::from(form.bound(bits)));
+        }
+    }
 
     struct Turn;
     impl Form<2> for Turn {

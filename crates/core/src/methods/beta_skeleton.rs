@@ -153,3 +153,16 @@ impl Form<2> for TouchingDisk {
         along.minus(&self.d.number::<T>().times(&sign::dot(r, r)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::sign::tests::assert_bounded;
+
+    #[test]
+    fn values_are_within_their_bounds() {
+        for beta in [1.0, 1.7, 1e-9, 12345.678] {
+            assert_bounded(&Lune::new(beta).disk);
+        }
+    }
+}

@@ -192,3 +192,19 @@ impl Form<4> for Ahead {
         sign::cross(&sign::difference(b, a), &from)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::sign::tests::assert_bounded;
+
+    #[test]
+    fn values_are_within_their_bounds() {
+        for ratio in [0.5, 1.0, 1.3] {
+            let squares = &fraction(ratio).map(|value| Constant::new(&(&value * &value)));
+            assert_bounded(&Power { squares });
+            assert_bounded(&Near { squares });
+        }
+        assert_bounded(&Ahead);
+    }
+}

@@ -110,3 +110,20 @@ impl Curves<'_> {
         once.map(|(p, q)| rows(self.neighborhood.delaunay, p, q)).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each end grows to its nearest neighbor but those behind, so a circle with uneven steps is walked around and closed.
+    #[test]
+    fn a_sampled_circle_is_one_ring() {
+        let angle = |k: u32| (f64::from(k) + 0.3 * f64::from(k * k % 7) / 7.0) / 10.0;
+        let points: Vec<_> = (0..62).map(|k| [angle(k).cos(), angle(k).sin()]).collect();
+        let delaunay = Delaunay::new(&points, &Progress::default()).expect("points");
+        let edges = crawl(&delaunay, &Progress::default()).expect("no one cancels");
+        let mut ring: Edges = (0..61).map(|k| [k, k + 1]).collect();
+        ring.insert(1, [0, 61]);
+        assert_eq!(edges, ring);
+    }
+}

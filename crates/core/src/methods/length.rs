@@ -129,3 +129,39 @@ impl Form<3> for Longer {
         sign::dot(q, q).minus(&sign::dot(&other, &other))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::sign::tests::assert_bounded;
+    use crate::progress::Progress;
+
+    #[test]
+    fn values_are_within_their_bounds() {
+        assert_bounded(&Nearer);
+        assert_bounded(&Longer);
+    }
+
+    /// Of some lengths the square is known whole, of others, with coordinates next to none, it is not.
+    #[test]
+    fn lengths_are_compared_as_exactly_as_by_integers() {
+        let mut points = vec![[-1.0, 0.0], [0.0, 0.0]];
+        for k in 0..12u32 {
+            let (turn, tiny) = (f64::from(k % 3), f64::from(k / 3) * 1e-150);
+            points.push([1.0 + turn * f64::EPSILON, tiny]);
+            points.push([tiny, 1.0 + turn * f64::EPSILON]);
+        }
+        let delaunay = Delaunay::new(&points, &Progress::default()).expect("points");
+        let count = delaunay.points().len() as u32;
+        let pairs = (0..count).flat_map(|p| (0..p).map(move |q| (p, q)));
+        let edges: Vec<Ranked> = pairs.map(|(p, q)| Ranked::new(&delaunay, p, q)).collect();
+        assert!(edges.iter().any(|e| e.rest.is_nan()) && edges.iter().any(|e| !e.rest.is_nan()));
+        let ends = |edge: &Ranked| [delaunay.point(edge.p), delaunay.point(edge.q)];
+        for a in &edges {
+            for b in &edges {
+                let exact = compare_exactly(ends(a), ends(b));
+                assert_eq!(a.compare_lengths(b, ends(a), ends(b)), exact);
+            }
+        }
+    }
+}

@@ -64,3 +64,14 @@ impl Form<3> for CotangentProduct {
         dots.plus(&sign::cross(q, left).times(&sign::cross(q, right)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::sign::tests::assert_bounded;
+
+    #[test]
+    fn values_are_within_their_bounds() {
+        assert_bounded(&CotangentProduct);
+    }
+}

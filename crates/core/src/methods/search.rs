@@ -255,3 +255,15 @@ impl Form<2> for RoomBehind {
         room.times(&room).minus(&sign::dot(d, d).times(&sign::dot(g, g)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::sign::tests::assert_bounded;
+
+    #[test]
+    fn values_are_within_their_bounds() {
+        assert_bounded(&RoomAhead);
+        assert_bounded(&RoomBehind);
+    }
+}
