@@ -196,7 +196,7 @@ def local_feature_size(
     r. For speed the axis is made of fewer, longer segments, less than 0.05 % off the distance, and
     the search stops within as much of the nearest.
 
-    O(n log n) time: a million samples take about 1.3 times as long as their crust.
+    O(n log n) time: a million samples take about 1.6 times as long as their crust.
 
     References
     ----------

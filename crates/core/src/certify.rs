@@ -33,7 +33,7 @@ pub fn ratios(
     }
     progress.enter(Stage::Measure, 3 * count)?;
     let of_vertex = |v, ratios: &mut Vec<f64>| append(delaunay, axis, v, ratios);
-    let own = OfVertices::new(count, progress, of_vertex)?;
+    let own = OfVertices::new(count, 1, progress, of_vertex)?;
     let mut ratios = vec![0.0; edges.len()];
     own.by_rows(
         delaunay,

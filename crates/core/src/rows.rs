@@ -30,17 +30,18 @@ struct Part<T> {
 type Place = [u32; 3];
 
 impl<T: Copy + Send + Sync> OfVertices<T> {
-    /// Of `count` vertices: `append` puts those of a vertex behind what is there.
+    /// Of `count` vertices: `append` puts those of a vertex, about `each`, behind what is there.
     ///
     /// # Errors
     /// A cancelled `progress`.
     pub fn new(
         count: usize,
+        each: usize,
         progress: &Progress,
         append: impl Fn(u32, &mut Vec<T>) + Sync,
     ) -> Result<Self> {
         let parts = in_parts(count, GRAIN, progress, |vertices| {
-            let mut items = Vec::with_capacity(2 * vertices.len());
+            let mut items = Vec::with_capacity(each * vertices.len());
             let mut starts = Vec::with_capacity(vertices.len() + 1);
             starts.push(0);
             for v in vertices {

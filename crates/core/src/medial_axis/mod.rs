@@ -49,7 +49,7 @@ pub fn medial_axis(
     let mesh = Mesh { delaunay, wedges: &wedges, curve, flips: &flips };
     let centers = one_for_each_circle(&mesh, &circles, progress)?;
     let inside = inside(&mesh, progress)?;
-    let found = OfVertices::new(inside.len(), progress, |p, found| {
+    let found = OfVertices::new(inside.len(), 2, progress, |p, found| {
         append(&mesh, p, inside[p as usize], &centers, found);
     })?;
     let rays = rays(&mesh, &centers);
