@@ -97,6 +97,7 @@ impl Factors<'_> {
         let Self { candidates, turns, costs, .. } = self;
         let (range, count) = (candidates.from(v), candidates.pairs(v));
         let pairs = Pairs::new(&Paired {
+            count,
             seen: self.seen::<Q>(range.start, count, sweep.sent),
             directions: quads(&turns.directions, range.start).map(cast),
             lengths: quads(&self.spacing.lengths, range.start).map(f32x4::new),

@@ -38,6 +38,8 @@ pub const LANES: Quads<MOST_QUADS> = {
 
 /// The edges at a vertex that form pairs, and the weights of their turns and of their steps.
 pub struct Paired<const Q: usize> {
+    /// How many they are.
+    pub count: usize,
     /// What each edge costs as seen from its other end.
     pub seen: Quads<Q>,
     /// Where each leads, in 2⁻³² turns.
@@ -66,11 +68,15 @@ impl<const Q: usize> Pairs<Q> {
     /// The pairs of some edges.
     #[inline]
     pub fn new(edges: &Paired<Q>) -> Self {
-        let Paired { seen, directions, lengths, turn, step } = edges;
+        let Paired { count, seen, directions, lengths, turn, step } = edges;
         let infinite = [INFINITE; Q];
         let (mut rows, mut beside, mut second) = ([[infinite; 4]; Q], infinite, infinite);
         for r in 0..Q {
             for k in 0..4 {
+                if r == Q - 1 && k == 2 && *count <= 4 * Q - 2 {
+                    // Few vertices have edges in these two lanes; one branch costs less than their rows.
+                    break;
+                }
                 let direction = i32x4::splat(directions[r].as_array()[k]);
                 let [length, seen] = [lengths[r], seen[r]].map(|own| splat(own, k));
                 for q in 0..Q {
@@ -126,10 +132,19 @@ impl<const Q: usize> Pairs<Q> {
             second = second.fast_min(value.fast_max(*seen));
             value = value.fast_min(*seen);
         }
-        let (value, second) = (value.to_array(), second.to_array());
-        let of = |k: usize| Least { value: value[k], second: second[k] };
-        of(0).and(of(2)).and(of(1).and(of(3)))
+        // As vectors to the end: a choice between numbers would be a branch.
+        for across in [[2, 3, 0, 1], [1, 0, 3, 2]] {
+            let [others, seconds] = [value, second].map(|own| permuted(own, across));
+            second = second.fast_min(seconds).fast_min(value.fast_max(others));
+            value = value.fast_min(others);
+        }
+        Least { value: value.as_array()[0], second: second.as_array()[0] }
     }
+}
+
+#[inline]
+fn permuted(quad: f32x4, places: [usize; 4]) -> f32x4 {
+    f32x4::new(places.map(|k| quad.as_array()[k]))
 }
 
 /// The value of lane `k` of a quad, in all of them.
@@ -183,12 +198,6 @@ impl Least {
     pub fn meet(self, value: f32) -> Self {
         let more = if self.value < value { value } else { self.value };
         Self { value: least(self.value, value), second: least(self.second, more) }
-    }
-
-    /// These and others.
-    #[inline]
-    fn and(self, others: Self) -> Self {
-        Self { second: least(self.second, others.second), ..self }.meet(others.value)
     }
 
     /// For each of some of them, the least of the others.

@@ -8,6 +8,7 @@ use super::geometry::{Spacing, Turns};
 use super::median::median;
 use super::rings::ring_median;
 use super::selection::Selection;
+use rayon::prelude::*;
 
 /// What the first round found around each vertex; empty before.
 #[derive(Debug, Default)]
@@ -107,20 +108,29 @@ fn known(values: &[f64], v: usize) -> f64 {
 
 /// For each vertex the share of isolated ones among those about as far from others, relative to the spacing around.
 fn isolated_share(spacing: &Spacing<'_>, selection: &Selection, constants: &Constants) -> Vec<f32> {
-    let vertices = spacing.crowding.len();
-    let remote = |v: usize| -spacing.crowding[v];
-    let mut isolated: Vec<f32> =
-        (0..vertices).filter(|&v| selection.degrees[v] == 0).map(remote).collect();
-    if isolated.is_empty() {
+    if !selection.degrees.contains(&0) {
         return Vec::new();
     }
-    let mut all: Vec<f32> = (0..vertices).map(remote).collect();
-    isolated.sort_unstable_by(f32::total_cmp);
-    all.sort_unstable_by(f32::total_cmp);
+    let all = spacing.crowding.iter().zip(0..).map(|(&crowding, v)| (-crowding, v));
+    let mut all: Vec<(f32, u32)> = all.collect();
+    all.par_sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let is_isolated = |v: u32| selection.degrees[v as usize] == 0;
+    let isolated: Vec<f32> = all.iter().filter(|own| is_isolated(own.1)).map(|own| own.0).collect();
     let alike = libm::log(constants.alone_alike) as f32;
-    by_vertex(vertices, |v| {
-        let from = remote(v) + alike;
-        let beyond = |sorted: &[f32]| (sorted.len() - sorted.partition_point(|&x| x < from)) as f32;
-        beyond(&isolated) / (beyond(&all) + 2.0)
-    })
+    let mut shares = vec![0.0; all.len()];
+    // Both are sorted: what is not as far out as one vertex is not as far out as the next.
+    let (mut nearer, mut nearer_isolated) = (0, 0);
+    for &(remote, v) in &all {
+        let from = remote + alike;
+        while all[nearer].0 < from {
+            nearer += 1;
+        }
+        while isolated.get(nearer_isolated).is_some_and(|&own| own < from) {
+            nearer_isolated += 1;
+        }
+        let beyond = [isolated.len() - nearer_isolated, all.len() - nearer];
+        let [beyond_isolated, beyond] = beyond.map(|count| count as f32);
+        shares[v as usize] = beyond_isolated / (beyond + 2.0);
+    }
+    shares
 }
