@@ -21,6 +21,7 @@ use rayon::prelude::*;
 /// # Errors
 /// A cancelled `progress`.
 pub fn shells(points: &[Point], curves: &Curves, progress: &Progress) -> Result<Vec<Option<u32>>> {
+    progress.advance(0)?;
     let rings = Rings::new(points, curves);
     progress.enter(Stage::Nest, curves.closed.len())?;
     let around = |ring: usize| {

@@ -4,6 +4,7 @@ use crate::adjacency::Incidence;
 use crate::error::Result;
 use crate::exact::predicates::orientation;
 use crate::memory;
+use crate::parts::{GRAIN, sort_by};
 use crate::point::{Point, lexicographic};
 use crate::progress::{Progress, Stage};
 use std::cmp::Ordering::{Equal, Greater, Less};
@@ -51,7 +52,7 @@ pub fn trace_edges(
     progress: &Progress,
 ) -> Result<Curves> {
     let graph = graph(points, edges, progress)?;
-    Ok(follow(points, &graph, |_| false, |row| row, progress)?.0.sorted(|row| row))
+    follow(points, &graph, |_| false, |row| row, progress)?.0.sorted(|row| row, progress)
 }
 
 /// The same for a part of all edges, which goes on at the rows that are `cut`, and whose rows have a `number` each in the whole.
@@ -66,7 +67,7 @@ pub fn trace_between<N: Ord>(
     points: &[Point],
     edges: impl AsRef<[[u32; 2]]>,
     cut: impl Fn(u32) -> bool,
-    number: impl Fn(u32) -> N + Copy,
+    number: impl Fn(u32) -> N + Copy + Sync,
     progress: &Progress,
 ) -> Result<(Curves, Vec<Vec<u32>>)> {
     let graph = graph(points, edges, progress)?;
@@ -75,7 +76,7 @@ pub fn trace_between<N: Ord>(
     curves.isolated.retain(|&row| !cut(row));
     curves.isolated.sort_unstable_by_key(|&row| number(row));
     drop(graph);
-    Ok((curves.sorted(number), runs))
+    Ok((curves.sorted(number, progress)?, runs))
 }
 
 fn graph(
@@ -217,19 +218,22 @@ impl Curves {
     }
 
     /// The same curves, sorted by the numbers of their rows.
-    fn sorted<N: Ord>(self, number: impl Fn(u32) -> N) -> Self {
+    fn sorted<N: Ord>(self, number: impl Fn(u32) -> N + Sync, progress: &Progress) -> Result<Self> {
         let mut order: Vec<usize> = (0..self.closed.len()).collect();
         let numbers = |k: usize| self.curve(k).iter().map(|&row| number(row));
-        order.sort_unstable_by(|&a, &b| numbers(a).cmp(numbers(b)));
+        sort_by(&mut order, progress, |&a, &b| numbers(a).cmp(numbers(b)))?;
         let isolated = self.isolated.clone();
         let mut sorted = Self { offsets: vec![0], isolated, ..Self::default() };
         sorted.indices.reserve_exact(self.indices.len());
-        for k in order {
-            sorted.indices.extend_from_slice(self.curve(k));
-            sorted.offsets.push(sorted.indices.len());
-            sorted.closed.push(self.closed[k]);
+        for order in order.chunks(GRAIN) {
+            for &k in order {
+                sorted.indices.extend_from_slice(self.curve(k));
+                sorted.offsets.push(sorted.indices.len());
+                sorted.closed.push(self.closed[k]);
+            }
+            progress.advance(0)?;
         }
-        sorted
+        Ok(sorted)
     }
 }
 
