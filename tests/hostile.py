@@ -253,8 +253,18 @@ NOUNS: list[Make] = [
     lambda: shapes.circle() + shapes.circle(3),
     lambda: shapes.circle().medial_axis(),
 ]
-#: Calls whose arguments are code: they may do anything.
-NOT_CALLED = {"cached", "kept", "run", "plot", "picture", "count", "index", "select_method"}
+#: Calls whose arguments are code, which may do anything, or have been checked by who calls them.
+NOT_CALLED = {
+    "along",
+    "cached",
+    "kept",
+    "run",
+    "plot",
+    "picture",
+    "count",
+    "index",
+    "select_method",
+}
 
 
 def functions() -> dict[str, Callable[..., Any]]:

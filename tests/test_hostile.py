@@ -122,6 +122,13 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
         ),
         "asks for more than 10,000,000 samples",
     ),
+    "a band thinner than any number": (
+        lambda: cl.slices(np.eye(4, 3), "z=0", thickness=5e-324), "the scale 4.94066e-324 is too"
+    ),
+    "a CRS that is no text": (
+        lambda: cl.project(cl.Points([(0, 1)], crs="EPSG:4326"), crs="1\n2\0\ud800"),
+        r"the CRS '1\\n2\\x00\\ud800' is unknown",
+    ),
     "planes without end": (
         lambda: cl.slices([(0, 0, 0)], hostile.Endless()),
         "more than 100,000 planes",

@@ -164,7 +164,7 @@ def _crs(name: str) -> Any:
 
     try:
         return pyproj.CRS.from_user_input(name)
-    except pyproj.exceptions.CRSError:
+    except (pyproj.exceptions.CRSError, UnicodeEncodeError):
         raise InputError(f"the CRS {shown(name)} is unknown: write it as EPSG:25832") from None
 
 

@@ -75,7 +75,8 @@ def thinned(uv: FloatArray, cell: float) -> FloatArray:
     array([[0.2, 0.1],
            [5. , 5. ]])
     """
-    cells = np.floor(uv / cell)
+    with np.errstate(over="ignore"):
+        cells = np.floor(uv / cell)
     if not (np.abs(cells) < _MOST_CELLS).all():
         raise InputError(
             f"the scale {cell:g} is too small for coordinates of {np.abs(uv).max():g}: "
