@@ -45,12 +45,14 @@ impl Connection {
         let around = Surroundings::new(delaunay, found, &answer, progress)?;
         progress.advance(0)?;
         let features: Vec<_> = edges.par_iter().map(|edge| around.of(ends(edge))).collect();
+        progress.advance(0)?;
         let confidence: Vec<f64> =
             features.iter().map(|each| calibrate::edge(each.as_ref())).collect();
         let description = calibrate::describe(&confidence, around.isolated());
         let of_crust = crust(delaunay, progress)?;
         let crust = Adjacency::new(delaunay, &of_crust);
         let comparison = Comparison { delaunay, around: &around, answer: &answer, crust: &crust };
+        progress.advance(0)?;
         let left_out = without(&of_crust, &edges, |edge| comparison.left_out(ends(edge)));
         let added = without(&edges, &of_crust, |edge| comparison.added(ends(edge)));
         let whole = calibrate::answer(&description);

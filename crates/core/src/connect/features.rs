@@ -55,12 +55,15 @@ impl<'a> Surroundings<'a> {
     ) -> Result<Self> {
         let candidates = &found.candidates;
         let steps = Steps::new(found, curves);
+        progress.advance(0)?;
         let dimension = excess_dimension(delaunay, candidates, &steps);
+        progress.advance(0)?;
         let rivals = by_vertex(candidates.vertices(), |v| {
             let out = candidates.from(v).filter(|&e| !found.selection.chosen[e]);
             out.map(|e| f64::from(found.beliefs[e])).fold(SURE, f64::min).max(-SURE)
         });
         let beside = beside(delaunay, found, curves, progress)?;
+        progress.advance(0)?;
         let alone = (0..candidates.vertices()).filter(|&v| curves.of(v as u32).is_empty()).count();
         let isolated = alone as f64 / candidates.vertices().max(1) as f64;
         let (sizes, throughout) = along_components(&dimension, curves);

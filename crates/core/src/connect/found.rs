@@ -58,7 +58,9 @@ pub fn converge<'a>(
     let mut spacing = Spacing::new(delaunay, &candidates, constants);
     progress.advance(0)?;
     let hope = hope(&candidates, &spacing, &known, constants);
+    progress.advance(0)?;
     candidates.retain(&mut spacing.lengths, &hope);
+    progress.advance(0)?;
     for &end in &known.ends {
         candidates.paired[end as usize] = 0;
     }
@@ -67,16 +69,19 @@ pub fn converge<'a>(
     let mut round = |sweeps: usize, rough: &Roughness| {
         let mut costs = Costs::new(&candidates, &spacing, rough, constants);
         known.price(&candidates, &mut costs);
+        progress.advance(0)?;
         let factors =
             Factors { candidates: &candidates, spacing: &spacing, turns: &turns, costs: &costs };
         factors.converge(sweeps, &mut sent, progress)?;
         let beliefs = factors.beliefs(&sent);
+        progress.advance(0)?;
         let selection = decode(&candidates, &beliefs, |v| known.most(v));
         Ok((costs, beliefs, selection))
     };
     let (_, _, first) = round(SWEEPS[0], &Roughness::default())?;
     let mut rough = Roughness::new(&candidates, &spacing, &turns, &first, constants);
     drop(first);
+    progress.advance(0)?;
     if known.closed {
         // A gap is no end where there are none.
         rough.gaps = Gaps::default();

@@ -84,9 +84,11 @@ fn find<'a>(
     let mut selection = std::mem::take(&mut found.selection);
     let crust = crust(delaunay, progress)?;
     bridge::bridge(delaunay, &found, &crust, constants, &mut selection);
+    progress.advance(0)?;
     if !found.known.every_point {
         prune::prune(&found.factors(), constants, &mut selection);
     }
+    progress.advance(0)?;
     mend::mend(&found, &mut selection)?;
     if let Some(count) = hints.components {
         count::reach(&found, count, &mut selection)?;
@@ -95,6 +97,7 @@ fn find<'a>(
     if hints.junctions {
         junctions::join(&found, &mut selection);
     }
+    progress.advance(0)?;
     found.selection = selection;
     let edges = edges(delaunay, &found.candidates, &found.selection);
     if hints.components.is_some() {
