@@ -163,4 +163,4 @@ def test_the_triangulation_keeps_one_interpolant() -> None:
     delaunay = cl.Delaunay(POINTS)
     for beta in (1.0, 1.2, 1.5, 1.7, 2.0):
         cl.certify(delaunay, cl.beta_skeleton(delaunay, beta))
-    assert sorted(delaunay._made) == ["crust", "interpolant"]
+    assert sorted(delaunay._made) == ["along", "crust", "interpolant"]

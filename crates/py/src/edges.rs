@@ -1,12 +1,16 @@
 //! Edges from Python: pairs of rows in any order, or in the canonical one.
 
 use crate::arrays::rows;
-use crate::errors::input_error;
+use crate::errors::{exception, input_error};
 use crate::threads::aside;
 use crustline_core::edges::Edges;
+use crustline_core::memory::check;
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use rayon::prelude::*;
+
+/// Memory for each edge as one of the core.
+const BYTES: usize = size_of::<[u32; 2]>();
 
 /// Are the edges i < j in each row, sorted, unique, and between `points` points?
 #[pyfunction]
@@ -32,7 +36,12 @@ pub fn canonical(
 ) -> PyResult<Edges> {
     if are_canonical(edges, points as i64) {
         let rows = |edge: &[i64; 2]| edge.map(|row| row as u32);
-        return aside(py, threads, || edges.par_iter().map(rows).collect());
+        // Asked for by the thread that will take it: each has memory of its own.
+        let made = || {
+            check(edges.len(), BYTES)?;
+            Ok(edges.par_iter().map(rows).collect())
+        };
+        return aside(py, threads, made)?.map_err(|error| exception(py, &error));
     }
     let inside = |&row: &i64| row >= 0 && (row as usize) < points;
     if let Some(k) = edges.iter().position(|edge| edge[0] == edge[1] || !edge.iter().all(inside)) {
