@@ -6,6 +6,20 @@ use rayon::prelude::*;
 /// Points that one task takes at a time.
 const GRAIN: usize = 1 << 14;
 
+/// The larger of two numbers; `b` if one of them is none. One instruction, where `f64::max` cares for what is not a number.
+#[inline]
+#[must_use]
+pub fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// The smaller of two numbers; `b` if one of them is none.
+#[inline]
+#[must_use]
+pub fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
 /// A rectangle parallel to the axes.
 #[derive(Debug, Clone, Copy)]
 pub struct Bounds {
@@ -105,8 +119,6 @@ impl Bounds {
     #[inline]
     #[must_use]
     pub fn least_square(&self, other: &Self) -> f64 {
-        // One instruction, where `f64::max` cares for what is not a number.
-        let larger = |a: f64, b: f64| if a > b { a } else { b };
         let gap = |axis: usize| {
             let [below, above] =
                 [self.low[axis] - other.high[axis], other.low[axis] - self.high[axis]];

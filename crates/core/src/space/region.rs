@@ -2,7 +2,7 @@
 
 use crate::exact::filter::{ROUNDING, UNDERFLOW};
 use crate::point::{Point, turned};
-use crate::space::bounds::Bounds;
+use crate::space::bounds::{Bounds, larger, smaller};
 use crate::space::oriented::{CORNERS, Seen, Span};
 
 /// A disk whose circle goes through a point `p`.
@@ -53,18 +53,6 @@ impl Region {
         let is_apart = first > last;
         (!is_apart).then_some([first, last])
     }
-}
-
-/// The larger of two numbers; `b` if one of them is none.
-#[inline]
-fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
-/// The smaller of two numbers; `b` if one of them is none.
-#[inline]
-fn smaller(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
 }
 
 #[cfg(test)]

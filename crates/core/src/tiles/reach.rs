@@ -6,7 +6,7 @@
 
 use crate::delaunay::Delaunay;
 use crate::point::{Point, cross, dot, length, sub};
-use crate::space::bounds::Bounds;
+use crate::space::bounds::{Bounds, larger, smaller};
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, TAU};
 
 /// More than all relative roundings below.
@@ -159,17 +159,6 @@ pub(super) fn are_near(partners: Partners, delaunay: &Delaunay, p: u32, distance
     let square = |k: usize| support[k % 8] * support[k % 8];
     let least = (0..8).map(|k| square(k) + square(k + 2)).fold(f64::INFINITY, f64::min);
     least * distance * distance > 4.0
-}
-
-/// The larger of two numbers, at less cost than where one may be none.
-#[inline]
-fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
-#[inline]
-fn smaller(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
 }
 
 /// 2 g / |g|², rounded down in length: its product with a direction is at most 1 / R there.
