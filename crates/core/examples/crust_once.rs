@@ -88,7 +88,7 @@ fn run(points: &[Point], wanted: &[String]) {
     let edges = timed("crust", || crust(&delaunay, &progress).expect("no one cancels"), Vec::len);
     if wants("axis") {
         let axis = || {
-            medial_axis(&delaunay, &Adjacency::new(&delaunay, &edges), &progress)
+            medial_axis(&delaunay, &Adjacency::new(&delaunay, &edges).expect("memory"), &progress)
                 .expect("no one cancels")
         };
         timed("axis", axis, |axis| axis.edges.len());
@@ -99,9 +99,12 @@ fn run(points: &[Point], wanted: &[String]) {
     }
     if wants("certificate") {
         let certificate = || {
-            let interpolant =
-                Interpolant::new(&delaunay, Adjacency::new(&delaunay, &edges).into(), &progress)
-                    .expect("no one cancels");
+            let interpolant = Interpolant::new(
+                &delaunay,
+                Adjacency::new(&delaunay, &edges).expect("memory").into(),
+                &progress,
+            )
+            .expect("no one cancels");
             ratios(&delaunay, &edges, &interpolant, &progress).expect("no one cancels")
         };
         timed("certificate", certificate, Vec::len);

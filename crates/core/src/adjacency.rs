@@ -2,7 +2,13 @@
 
 use crate::delaunay::Delaunay;
 use crate::edges::{Edges, sort};
+use crate::error::Result;
+use crate::memory;
 use rayon::prelude::*;
+
+/// Memory for each edge, and for each point, while the neighbors along the edges are collected and sorted.
+const OF_EDGE: usize = 64;
+const OF_POINT: usize = 16;
 
 /// The edges at each of some numbers, which stand for rows or for vertices.
 #[derive(Debug, Clone, Default)]
@@ -60,8 +66,11 @@ pub struct Adjacency {
 
 impl Adjacency {
     /// The neighbors along `edges`, canonical ones between input rows. A repeated row stands for the first of its kind.
-    #[must_use]
-    pub fn new(delaunay: &Delaunay, edges: &Edges) -> Self {
+    ///
+    /// # Errors
+    /// Too little memory.
+    pub fn new(delaunay: &Delaunay, edges: &Edges) -> Result<Self> {
+        memory::check(OF_EDGE * edges.len() + OF_POINT * delaunay.input_len(), 1)?;
         let vertex = vertices_of_rows(delaunay);
         let of_rows = |edge: &[u32; 2]| {
             let [p, q] = edge.map(|row| vertex[row as usize]);
@@ -69,7 +78,7 @@ impl Adjacency {
         };
         let mut mapped: Edges = edges.par_iter().map(of_rows).collect();
         mapped.retain(|[p, q]| p != q);
-        Self::of_vertices(&[mapped], delaunay.points().len())
+        Ok(Self::of_vertices(&[mapped], delaunay.points().len()))
     }
 
     /// The neighbors along edges p < q between `count` vertices, in any order.

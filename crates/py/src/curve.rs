@@ -6,14 +6,9 @@ use crate::delaunay::Delaunay;
 use crate::edges::canonical;
 use crustline_core::Adjacency;
 use crustline_core::edges::Edges;
-use crustline_core::memory::check;
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use std::sync::Arc;
-
-/// Memory for each edge, and for each point, while the neighbors along the edges are collected and sorted.
-const OF_EDGE: usize = 64;
-const OF_POINT: usize = 16;
 
 /// Edges, and the neighbors of each vertex along them.
 #[pyclass(frozen, module = "crustline._core")]
@@ -36,10 +31,7 @@ impl Curve {
         let size = delaunay.core().input_len();
         let edges = canonical(py, threads, rows(py, &edges)?, size)?;
         let call = Call { size, threads, callback: progress };
-        let adjacency = call.run(py, |_| {
-            check(OF_EDGE * edges.len() + OF_POINT * size, 1)?;
-            Ok(Adjacency::new(delaunay.core(), &edges))
-        })?;
+        let adjacency = call.run(py, |_| Adjacency::new(delaunay.core(), &edges))?;
         Ok(Self { edges, adjacency: Arc::new(adjacency) })
     }
 

@@ -122,8 +122,12 @@ impl Delaunay {
     /// Edges that join no two different rows.
     #[wasm_bindgen(js_name = medialAxis)]
     pub fn medial_axis(&self, edges: &[u32]) -> Thrown<MedialAxis> {
-        let curve = Adjacency::new(&self.inner, &self.edges_of(edges)?);
-        Ok(run(|progress| core::medial_axis::medial_axis(&self.inner, &curve, progress))?.into())
+        let edges = self.edges_of(edges)?;
+        let axis = run(|progress| {
+            let curve = Adjacency::new(&self.inner, &edges)?;
+            core::medial_axis::medial_axis(&self.inner, &curve, progress)
+        })?;
+        Ok(axis.into())
     }
 
     /// The local feature size at each row: not a number at isolated points, 0 at branches.
@@ -183,8 +187,10 @@ impl Delaunay {
         {
             return Ok(Rc::clone(smooth));
         }
-        let curve = Arc::new(Adjacency::new(&self.inner, edges));
-        let smooth = Rc::new(run(|progress| Interpolant::new(&self.inner, curve, progress))?);
+        let smooth = Rc::new(run(|progress| {
+            let curve = Arc::new(Adjacency::new(&self.inner, edges)?);
+            Interpolant::new(&self.inner, curve, progress)
+        })?);
         *self.smooth.borrow_mut() = Some((edges.clone(), Rc::clone(&smooth)));
         Ok(smooth)
     }

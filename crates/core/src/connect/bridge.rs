@@ -11,28 +11,33 @@ use super::selection::Selection;
 use crate::adjacency::Adjacency;
 use crate::delaunay::Delaunay;
 use crate::edges::Edges;
+use crate::error::Result;
 
 /// Put in the paths of the crust from free ends to free ends, past isolated points only, that are smooth; and those to isolated
 /// points at which the crust ends, if the steps grow towards them.
+///
+/// # Errors
+/// Too little memory.
 pub fn bridge(
     delaunay: &Delaunay,
     found: &Found<'_>,
     crust: &Edges,
     constants: &Constants,
     selection: &mut Selection,
-) {
+) -> Result<()> {
     let ends: Vec<usize> =
         (0..selection.degrees.len()).filter(|&v| selection.degrees[v] == 1).collect();
     if ends.is_empty() {
-        return;
+        return Ok(());
     }
-    let crust = Adjacency::new(delaunay, crust);
+    let crust = Adjacency::new(delaunay, crust)?;
     let walk = Walk { found, crust: &crust, selection, step: constants.gap_free as f32 };
     // All against the same curves, so that their order does not matter; each is found from both ends, if at all.
     let bridges: Vec<usize> = ends.into_iter().filter_map(|v| walk.from(v)).flatten().collect();
     for e in bridges {
         selection.set(&found.candidates, e, true);
     }
+    Ok(())
 }
 
 struct Walk<'a> {

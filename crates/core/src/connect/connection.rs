@@ -41,7 +41,7 @@ impl Connection {
     ) -> Result<Self> {
         let vertices = vertices_of_rows(delaunay);
         let ends = |edge: &[u32; 2]| edge.map(|row| vertices[row as usize]);
-        let answer = Adjacency::new(delaunay, &edges);
+        let answer = Adjacency::new(delaunay, &edges)?;
         let around = Surroundings::new(delaunay, found, &answer, progress)?;
         progress.advance(0)?;
         let features: Vec<_> = edges.par_iter().map(|edge| around.of(ends(edge))).collect();
@@ -50,7 +50,7 @@ impl Connection {
             features.iter().map(|each| calibrate::edge(each.as_ref())).collect();
         let description = calibrate::describe(&confidence, around.isolated());
         let of_crust = crust(delaunay, progress)?;
-        let crust = Adjacency::new(delaunay, &of_crust);
+        let crust = Adjacency::new(delaunay, &of_crust)?;
         let comparison = Comparison { delaunay, around: &around, answer: &answer, crust: &crust };
         progress.advance(0)?;
         let left_out = without(&of_crust, &edges, |edge| comparison.left_out(ends(edge)));

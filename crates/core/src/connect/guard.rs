@@ -35,7 +35,7 @@ pub fn guard(
         return Ok(edges);
     }
     let interpolant =
-        Interpolant::new(delaunay, Arc::new(Adjacency::new(delaunay, crust)), progress)?;
+        Interpolant::new(delaunay, Arc::new(Adjacency::new(delaunay, crust)?), progress)?;
     let ratios = ratios(delaunay, crust, &interpolant, progress)?;
     let is_proven = |side: [u32; 2]| {
         let number = crust.binary_search(&side).expect("rings of the crust are made of its edges");

@@ -83,7 +83,7 @@ fn find<'a>(
     let mut found = converge(delaunay, constants, hints, progress)?;
     let mut selection = std::mem::take(&mut found.selection);
     let crust = crust(delaunay, progress)?;
-    bridge::bridge(delaunay, &found, &crust, constants, &mut selection);
+    bridge::bridge(delaunay, &found, &crust, constants, &mut selection)?;
     progress.advance(0)?;
     if !found.known.every_point {
         prune::prune(&found.factors(), constants, &mut selection);

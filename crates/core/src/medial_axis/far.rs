@@ -130,9 +130,12 @@ mod tests {
         let tiny = 5e-324;
         let points = [[-tiny, tiny], [-tiny, 1.0 + f64::EPSILON], [tiny, 2.0 + 2.0 * f64::EPSILON]];
         let delaunay = Delaunay::new(&points, &Progress::default()).expect("points");
-        let axis =
-            medial_axis(&delaunay, &Adjacency::new(&delaunay, &Vec::new()), &Progress::default())
-                .expect("an axis");
+        let axis = medial_axis(
+            &delaunay,
+            &Adjacency::new(&delaunay, &Vec::new()).expect("memory"),
+            &Progress::default(),
+        )
+        .expect("an axis");
         assert!(axis.vertices.iter().flatten().chain(&axis.radii).all(|x| x.is_finite()));
         // A line between the first two and one between the last two, as for points in line.
         assert_eq!(axis.ray_samples, [[0, 1], [0, 1], [1, 2], [1, 2]]);

@@ -109,7 +109,7 @@ fn calls<'a>(points: &'a [Point], delaunay: &'a Delaunay, edges: &'a Edges) -> V
         let call = |p: &Progress| methods::select(delaunay, name, parameters, p).map(|_| ());
         calls.push((name, Box::new(call)));
     }
-    let curve = Adjacency::new(delaunay, edges);
+    let curve = Adjacency::new(delaunay, edges).expect("memory");
     let compare =
         move |p: &Progress| methods::is_beta_skeleton(delaunay, 1.7, &curve, p).map(|_| ());
     calls.push(("is-beta-skeleton", Box::new(compare)));
@@ -117,14 +117,14 @@ fn calls<'a>(points: &'a [Point], delaunay: &'a Delaunay, edges: &'a Edges) -> V
     calls.push((
         "medial-axis",
         Box::new(move |p: &Progress| {
-            medial_axis::medial_axis(delaunay, &Adjacency::new(delaunay, edges), p).map(|_| ())
+            medial_axis::medial_axis(delaunay, &Adjacency::new(delaunay, edges)?, p).map(|_| ())
         }),
     ));
     calls.push((
         "certify",
         Box::new(move |p: &Progress| {
             let interpolant =
-                Interpolant::new(delaunay, Adjacency::new(delaunay, edges).into(), p)?;
+                Interpolant::new(delaunay, Adjacency::new(delaunay, edges)?.into(), p)?;
             certify::ratios(delaunay, edges, &interpolant, p).map(|_| ())
         }),
     ));

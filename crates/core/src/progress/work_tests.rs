@@ -121,12 +121,12 @@ fn works(points: &[Point]) -> Vec<(&'static str, usize)> {
         measure(name, &|| drop(methods::select(&delaunay, name, parameters, &quiet)));
     }
     measure("medial axis", &|| {
-        let curve = Adjacency::new(&delaunay, &edges);
+        let curve = Adjacency::new(&delaunay, &edges).expect("memory");
         medial_axis::medial_axis(&delaunay, &curve, &quiet).expect("no one cancels");
     });
     measure("tiles", &|| drop(tile(&delaunay)));
     measure("certificate", &|| {
-        let curve = Arc::new(Adjacency::new(&delaunay, &edges));
+        let curve = Arc::new(Adjacency::new(&delaunay, &edges).expect("memory"));
         let interpolant =
             Interpolant::new(&delaunay, curve.clone(), &quiet).expect("no one cancels");
         certify::ratios(&delaunay, &edges, &interpolant, &quiet).expect("no one cancels");

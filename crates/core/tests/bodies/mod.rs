@@ -214,9 +214,12 @@ fn with_edges(data: &[u8]) -> Option<(Delaunay, Edges)> {
 fn certifying(data: &[u8]) {
     let Some((delaunay, edges)) = with_edges(data) else { return };
     let progress = Progress::default();
-    let interpolant =
-        Interpolant::new(&delaunay, Adjacency::new(&delaunay, &edges).into(), &progress)
-            .expect("no one cancels");
+    let interpolant = Interpolant::new(
+        &delaunay,
+        Adjacency::new(&delaunay, &edges).expect("memory").into(),
+        &progress,
+    )
+    .expect("no one cancels");
     let ratios = ratios(&delaunay, &edges, &interpolant, &progress).expect("no one cancels");
     assert_eq!(ratios.len(), edges.len());
     assert!(ratios.iter().all(|ratio| ratio.is_nan() || *ratio >= 0.0));
@@ -227,8 +230,9 @@ fn certifying(data: &[u8]) {
 fn axis(data: &[u8]) {
     let Some((delaunay, edges)) = with_edges(data) else { return };
     let progress = Progress::default();
-    let axis = medial_axis(&delaunay, &Adjacency::new(&delaunay, &edges), &progress)
-        .expect("no one cancels");
+    let axis =
+        medial_axis(&delaunay, &Adjacency::new(&delaunay, &edges).expect("memory"), &progress)
+            .expect("no one cancels");
     assert!(axis.vertices.iter().flatten().chain(&axis.radii).all(|x| x.is_finite()));
     let count = axis.vertices.len() as u32;
     assert!(axis.edges.iter().flatten().chain(&axis.ray_origins).all(|&v| v < count));
