@@ -24,21 +24,47 @@ pub fn select<S>(
     scratch: impl Fn() -> S + Sync,
     keep: impl Fn(&mut S, Edge) -> bool + Sync,
 ) -> Result<Edges> {
+    select_screened(delaunay, progress, |_| true, scratch, keep)
+}
+
+/// As [`select`], of the edges that pass `screen`, a quick test that many edges fail: it is made on a number of edges at a time,
+/// without a branch on its outcome.
+///
+/// # Errors
+/// A cancelled `progress`.
+pub fn select_screened<S>(
+    delaunay: &Delaunay,
+    progress: &Progress,
+    screen: impl Fn(Edge) -> bool + Sync,
+    scratch: impl Fn() -> S + Sync,
+    keep: impl Fn(&mut S, Edge) -> bool + Sync,
+) -> Result<Edges> {
     let vertices = delaunay.points().len();
     progress.enter(Stage::Select, vertices)?;
     memory::check(vertices, BYTES)?;
     let parts = in_parts(vertices, GRAIN, progress, |vertices| {
-        let mut memory = scratch();
+        let (mut memory, mut edges) = (scratch(), Vec::new());
         let mut kept = Vec::with_capacity(vertices.len());
         for few in short(vertices, progress) {
-            for p in few {
-                let edges = delaunay.edges_from(p as u32).filter(|&edge| keep(&mut memory, edge));
-                kept.extend(edges.map(|edge| rows(delaunay, edge.p, edge.q)));
-            }
+            let count = delaunay.write_edges_from(few, &mut edges);
+            let passed = pass(&mut edges[..count], &screen);
+            let edges = passed.iter().filter(|&&edge| keep(&mut memory, edge));
+            kept.extend(edges.map(|edge| rows(delaunay, edge.p, edge.q)));
         }
         kept
     })?;
     Ok(sort(&parts, delaunay.input_len()))
+}
+
+/// Move the edges that pass `screen` to the front; return them.
+fn pass(edges: &mut [Edge], screen: impl Fn(Edge) -> bool) -> &[Edge] {
+    let mut count = 0;
+    for k in 0..edges.len() {
+        let edge = edges[k];
+        edges[count] = edge;
+        count += usize::from(screen(edge));
+    }
+    &edges[..count]
 }
 
 /// All edges of the triangulation, as rows.

@@ -20,6 +20,7 @@ use leaf::Leaf;
 pub use rings::NONE;
 use slots::{HalfEdge, SLOTS, Slots};
 pub use stars::{Star, Stars};
+use std::ops::Range;
 pub use triangles::{triangle_parts, vertices_of_part};
 
 /// The most points that one triangulation can hold: half-edges are numbered in 32 bits.
@@ -146,6 +147,34 @@ impl Delaunay {
             left: star.left(k),
             right: star.right(k),
         })
+    }
+}
+
+impl Delaunay {
+    /// Write the edges from each of `vertices` to those of larger number to the front of `edges`; return how many these are.
+    ///
+    /// Without a branch on which way an edge leads, which no processor foresees.
+    pub fn write_edges_from(&self, vertices: Range<usize>, edges: &mut Vec<Edge>) -> usize {
+        let mut count = 0;
+        for p in vertices.start as u32..vertices.end as u32 {
+            let star = self.star(p);
+            let Some(last) = star.neighbors.len().checked_sub(1) else { continue };
+            if edges.len() <= count + last {
+                edges.resize(2 * (count + last + 1), Edge { p, q: p, left: None, right: None });
+            }
+            let mut put = |q, left, right| {
+                edges[count] = Edge { p, q, left, right };
+                count += usize::from(q > p);
+            };
+            let mut right = star.right(0);
+            for pair in star.neighbors.windows(2) {
+                let left = star.spans(pair[1]);
+                put(pair[0], left, right);
+                right = star.spans(pair[0]);
+            }
+            put(star.neighbors[last], star.left(last), right);
+        }
+        count
     }
 }
 

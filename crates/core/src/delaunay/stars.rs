@@ -61,6 +61,12 @@ impl<'a> Star<'a> {
         }
     }
 
+    /// The neighbor, if there are triangles at all.
+    #[inline]
+    pub fn spans(&self, neighbor: u32) -> Option<u32> {
+        (!self.flat).then_some(neighbor)
+    }
+
     /// The number of `neighbor`.
     ///
     /// # Panics

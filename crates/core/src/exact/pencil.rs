@@ -82,6 +82,13 @@ impl Pencil {
         Self { p, q, chord: sub(q, p) }
     }
 
+    /// The vector from p to q.
+    #[inline]
+    #[must_use]
+    pub fn chord(&self) -> Point {
+        self.chord
+    }
+
     /// The circumcenter of the counter-clockwise `triangle`, seen from this pencil.
     #[must_use]
     pub fn vertex(&self, triangle: [Point; 3]) -> Vertex {

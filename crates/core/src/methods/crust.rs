@@ -8,7 +8,7 @@ use super::one_step_crust;
 use super::search::{find_disk, find_late};
 use super::visit::{TooLong, Visit};
 use crate::delaunay::Delaunay;
-use crate::edges::{Edges, rows, select, sort};
+use crate::edges::{Edges, rows, select_screened, sort};
 use crate::error::Result;
 use crate::progress::Progress;
 use std::sync::{Mutex, PoisonError};
@@ -21,15 +21,15 @@ use std::sync::{Mutex, PoisonError};
 /// A cancelled `progress`.
 pub fn crust(delaunay: &Delaunay, progress: &Progress) -> Result<Edges> {
     let late = Mutex::new(Vec::new());
-    let kept = select(delaunay, progress, Visit::default, |visit, edge| {
-        one_step_crust::is_in(delaunay, edge)
-            && find_disk(delaunay, edge, visit).map_or_else(
-                |TooLong| {
-                    late.lock().unwrap_or_else(PoisonError::into_inner).push(edge);
-                    false
-                },
-                |verdict| verdict.is_in(),
-            )
+    let screen = |edge| one_step_crust::is_in(delaunay, edge);
+    let kept = select_screened(delaunay, progress, screen, Visit::default, |visit, edge| {
+        find_disk(delaunay, edge, visit).map_or_else(
+            |TooLong| {
+                late.lock().unwrap_or_else(PoisonError::into_inner).push(edge);
+                false
+            },
+            |verdict| verdict.is_in(),
+        )
     })?;
     let late = late.into_inner().unwrap_or_else(PoisonError::into_inner);
     if late.is_empty() {

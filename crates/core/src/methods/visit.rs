@@ -1,6 +1,6 @@
 //! Voronoi vertices inside a disk that touches two points: the search that the crust rests on.
 
-use crate::delaunay::{Delaunay, Edge};
+use crate::delaunay::{Delaunay, Edge, NONE};
 use crate::exact::filter::UNDERFLOW;
 use crate::exact::pencil::{Disk, Pencil, Vertex};
 use crate::point::{Point, cross, dot, sub};
@@ -10,6 +10,8 @@ use std::collections::HashSet;
 pub struct Visit {
     cells: Vec<u32>,
     many: HashSet<u32>,
+    /// Which neighbors of a cell a part of the disk may be nearer to.
+    near: Vec<u32>,
     /// How many cells more than usual the walks to come may pass, if that is limited.
     allowance: Option<usize>,
     /// How many searches have been given up since the last walk, and how many are before another walk is tried.
@@ -37,6 +39,7 @@ impl Default for Visit {
         Self {
             cells: Vec::new(),
             many: HashSet::new(),
+            near: Vec::new(),
             allowance: Some(ALLOWANCE),
             given_up: 0,
             patience: LEAST,
@@ -82,13 +85,16 @@ impl Visit {
         self.cells.clear();
         self.many.clear();
         self.cells.extend([edge.p, edge.q]);
+        let ratio = disk.radius / dot(pencil.chord(), pencil.chord()).sqrt();
+        let apex = own_apex(delaunay, edge, pencil, disk);
         let (mut next, mut found) = (0, None);
         while next < self.cells.len() && found.is_none() && next < most {
             let cell = self.cells[next];
             #[cfg(test)]
             crate::progress::work_tests::count(crate::progress::work_tests::CELL);
-            let other = [edge.q, edge.p].get(next).map(|&end| delaunay.point(end));
-            let part = Part::new(disk, pencil, delaunay.point(cell), other);
+            let site = delaunay.point(cell);
+            let half = Half::of([edge.q, edge.p].get(next).copied(), delaunay, site, ratio);
+            let part = Part::new(disk, pencil, site, half, apex);
             found = self.search_cell(delaunay, next, pencil, &part);
             next += 1;
         }
@@ -110,24 +116,27 @@ impl Visit {
     ) -> Option<Vertex> {
         let star = delaunay.star(self.cells[number]);
         let count = star.neighbors.len();
-        let side = |k: usize| Side::new(part, star.neighbors[k], delaunay.point(star.neighbors[k]));
-        let last = side(count.checked_sub(1)?);
-        let (mut before, mut this) = (last, if count > 1 { side(0) } else { last });
-        for k in 0..count {
-            let after = if k + 1 < count { side(k + 1) } else { side(0) };
-            if this.is_near {
-                let is_corner = before.is_near && (k > 0 || !star.on_hull);
-                if is_corner && !self.was_at(number, before.neighbor, this.neighbor) {
-                    let vertex = pencil.vertex([part.site, before.point, this.point]);
-                    if pencil.holds(part.disk, &vertex) {
-                        return Some(vertex);
-                    }
-                }
-                if part.may_cross(&this, [&before, &after]) {
-                    self.add(this.neighbor);
+        let near = part.near(delaunay, star.neighbors, &mut self.near);
+        for i in 0..near {
+            let k = self.near[i] as usize;
+            let before = if k > 0 { k - 1 } else { count - 1 };
+            let after = if k + 1 < count { k + 1 } else { 0 };
+            let this = star.neighbors[k];
+            let [at_before, at, at_after] =
+                [before, k, after].map(|k| delaunay.point(star.neighbors[k]));
+            let is_before_near = self.near[if i > 0 { i - 1 } else { near - 1 }] as usize == before;
+            if is_before_near
+                && (k > 0 || !star.on_hull)
+                && !self.was_at(number, star.neighbors[before], this)
+            {
+                let vertex = pencil.vertex([part.site, at_before, at]);
+                if pencil.holds(part.disk, &vertex) {
+                    return Some(vertex);
                 }
             }
-            (before, this) = (this, after);
+            if part.may_cross(at, [at_before, at_after]) {
+                self.add(this);
+            }
         }
         None
     }
@@ -160,55 +169,36 @@ struct Part<'a> {
     center: Point,
     /// More than the rounding errors of the distances below.
     doubt: f64,
-    half: Option<Half>,
-    /// The apex of the edge's own triangle whose center the circle goes through.
-    apex: Option<Point>,
-}
-
-/// The bisector of a cell's site and a neighbor.
-#[derive(Clone, Copy)]
-struct Side {
-    neighbor: u32,
-    point: Point,
-    /// Can a point of the part be nearer to the neighbor than to the site?
-    is_near: bool,
-}
-
-impl Side {
-    #[inline]
-    fn new(part: &Part<'_>, neighbor: u32, point: Point) -> Self {
-        Self { neighbor, point, is_near: part.may_reach(point) }
-    }
+    half: Half,
+    /// The apex of the edge's own triangle whose center the circle goes through, if that is so.
+    apex: u32,
 }
 
 /// The half of a disk that is nearer to one end of the edge.
 struct Half {
-    /// The vector to the other end.
+    /// The other end, and the vector to it.
+    end: u32,
     chord: Point,
     /// The disk's radius over the length of the chord.
     ratio: f64,
 }
 
 impl<'a> Part<'a> {
-    /// The part of `disk` in the cell of `site`; `other` is the other end of the edge, if `site` is one.
-    fn new(disk: &'a Disk, pencil: &Pencil, site: Point, other: Option<Point>) -> Self {
+    /// The part of `disk` in the cell of `site`, and in the half of it that `half` tells.
+    fn new(disk: &'a Disk, pencil: &Pencil, site: Point, half: Half, apex: u32) -> Self {
         let center = sub(disk.center, sub(site, pencil.p));
         let size = center[0].abs() + center[1].abs() + disk.radius;
-        let half = other.map(|other| {
-            let chord = sub(other, site);
-            Half { chord, ratio: disk.radius / dot(chord, chord).sqrt() }
-        });
-        let apex = pencil.own_apex(disk);
         Self { disk, site, center, doubt: 1e-14 * size + 2.0 * disk.error, half, apex }
     }
 
-    /// Can the disk cross the cell's `side`, given that it holds none of its ends? False only if it certainly does not.
+    /// Can the disk cross the side of the cell to the neighbor at `this`, given that it holds none of its ends? False only if it certainly
+    /// does not.
     ///
     /// It meets the line of the side around the foot of its center, so if the foot is beyond an end, on the other side of the
     /// bisector `beside` it, all between that end and the disk's part of the line is outside of the cell.
     #[inline]
-    fn may_cross(&self, side: &Side, beside: [&Side; 2]) -> bool {
-        let g = sub(side.point, self.site);
+    fn may_cross(&self, this: Point, beside: [Point; 2]) -> bool {
+        let g = sub(this, self.site);
         let far = dot(g, g);
         if far < UNDERFLOW {
             return true;
@@ -216,8 +206,8 @@ impl<'a> Part<'a> {
         let step = (far / 2.0 - dot(self.center, g)) / far;
         let foot = [self.center[0] + step * g[0], self.center[1] + step * g[1]];
         let doubt = 4.0 * self.doubt + 1e-13 * (g[0].abs() + g[1].abs());
-        beside.iter().all(|other| {
-            let h = sub(other.point, self.site);
+        beside.iter().all(|&other| {
+            let h = sub(other, self.site);
             let span = h[0].abs() + h[1].abs();
             let beyond = dot(foot, h) - dot(h, h) / 2.0 - (doubt + 1e-13 * span) * span;
             // An unknown (not a number) counts as crossing.
@@ -225,32 +215,56 @@ impl<'a> Part<'a> {
         })
     }
 
-    /// Can a point of this part be nearer to `neighbor` than to the site? False only if certainly none is.
+    /// Write the numbers of the neighbors that a point of this part may be nearer to than to the site to the front of `near`; return how
+    /// many these are.
+    ///
+    /// Without branches: most neighbors are far, but which ones are not no processor foresees.
     #[inline]
-    fn may_reach(&self, neighbor: Point) -> bool {
-        let g = sub(neighbor, self.site);
+    fn near(&self, delaunay: &Delaunay, neighbors: &[u32], near: &mut Vec<u32>) -> usize {
+        if near.len() < neighbors.len() {
+            near.resize(neighbors.len(), 0);
+        }
+        let mut count = 0;
+        for (k, &neighbor) in neighbors.iter().enumerate() {
+            near[count] = k as u32;
+            count += usize::from(self.may_reach(neighbor, delaunay.point(neighbor)));
+        }
+        count
+    }
+
+    /// Can a point of this part be nearer to `neighbor` than to the site? False only if certainly none is, or it is the other end and
+    /// its side has no end inside the disk.
+    #[inline]
+    fn may_reach(&self, neighbor: u32, at: Point) -> bool {
+        let g = sub(at, self.site);
         let span = g[0].abs() + g[1].abs();
         let far = dot(g, g);
-        let ahead = self.half.as_ref().filter(|half| half.faces(g, span));
-        if ahead.is_some() && self.apex == Some(neighbor) {
-            // The half disk ends on the bisector of p and q, there at that center, which is on this bisector, too.
-            return false;
-        }
-        let width = match ahead {
-            Some(half) => half.ratio * cross(half.chord, g).abs(),
-            // Where the direction is in doubt the whole disk serves, for it reaches no less.
-            None => self.disk.radius * far.sqrt(),
-        };
+        let Half { end, chord, ratio } = self.half;
+        let is_ahead = dot(chord, g) > 1e-14 * span * (chord[0].abs() + chord[1].abs());
+        // Where the direction is in doubt the whole disk serves, for it reaches no less.
+        let [ahead, whole] = [ratio * cross(chord, g).abs(), self.disk.radius * far.sqrt()];
+        let width = if is_ahead { ahead } else { whole };
         let reach = dot(self.center, g) + width + (self.doubt + 1e-14 * span) * span + UNDERFLOW;
+        // The half disk ends on the bisector of p and q, there at the center of the own triangle, which is on the apex's bisector, too.
+        let is_own = self.apex != NONE && (neighbor == self.apex && is_ahead || neighbor == end);
         // An unknown (not a number) counts as reaching.
-        reach.is_nan() || reach > far / 2.0
+        !is_own && (reach.is_nan() || reach > far / 2.0)
     }
 }
 
 impl Half {
-    /// Does `g`, whose coordinates sum to `span`, certainly point to the other half?
+    /// The half nearer to `site`, if that is an end of the edge; and else one that nothing is ahead of.
     #[inline]
-    fn faces(&self, g: Point, span: f64) -> bool {
-        dot(self.chord, g) > 1e-14 * span * (self.chord[0].abs() + self.chord[1].abs())
+    fn of(end: Option<u32>, delaunay: &Delaunay, site: Point, ratio: f64) -> Self {
+        let chord = end.map_or([0.0; 2], |end| sub(delaunay.point(end), site));
+        Self { end: end.unwrap_or(NONE), chord, ratio }
     }
+}
+
+/// The apex of the edge's own triangle whose center the circle of `disk` goes through, if that is so.
+#[inline]
+fn own_apex(delaunay: &Delaunay, edge: Edge, pencil: &Pencil, disk: &Disk) -> u32 {
+    let Some(apex) = pencil.own_apex(disk) else { return NONE };
+    let is_apex = |&vertex: &u32| delaunay.point(vertex) == apex;
+    edge.left.filter(is_apex).or(edge.right).unwrap_or(NONE)
 }
