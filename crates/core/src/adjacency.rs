@@ -107,7 +107,9 @@ impl Adjacency {
     #[inline]
     #[must_use]
     pub fn edge(&self, p: u32, q: u32) -> Option<u32> {
-        self.of(p).iter().find(|&&(end, _)| end == q).map(|&(_, edge)| edge)
+        let ends = self.of(p);
+        // Edges are sorted, so at each vertex their other ends ascend.
+        ends.binary_search_by_key(&q, |&(end, _)| end).ok().map(|k| ends[k].1)
     }
 }
 

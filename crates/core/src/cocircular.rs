@@ -118,8 +118,7 @@ pub fn is_tied(delaunay: &Delaunay, edge: Edge) -> bool {
 /// The half-edge u → v and its apexes.
 fn between(delaunay: &Delaunay, u: u32, v: u32) -> Edge {
     let star = delaunay.star(u);
-    let k = star.neighbors.iter().position(|&neighbor| neighbor == v);
-    let k = k.expect("u and v are two corners of a triangle");
+    let k = delaunay.position(u, v).expect("u and v are two corners of a triangle");
     Edge { p: u, q: v, left: star.left(k), right: star.right(k) }
 }
 

@@ -114,6 +114,8 @@ impl Progress {
 }
 
 #[cfg(test)]
+mod hub_tests;
+#[cfg(test)]
 mod looks_tests;
 #[cfg(test)]
 pub(crate) mod work_tests;

@@ -270,7 +270,7 @@ pub fn by_vertex<T: Copy + Default + Send>(
 /// The diagonals of cocircular points and the edges to keep that are not in the triangulation, from both of their ends,
 /// sorted.
 fn tied(delaunay: &Delaunay, keep: &[[u32; 2]], progress: &Progress) -> Result<Vec<(u32, Edge)>> {
-    let is_new = |edge: &Edge| !delaunay.star(edge.p).neighbors.contains(&edge.q);
+    let is_new = |edge: &Edge| delaunay.position(edge.p, edge.q).is_none();
     let both = |edge: Edge| [(edge.p, edge), (edge.q, edge)];
     let kept = keep.iter().filter(|pair| pair[0] < pair[1]);
     let kept = kept.map(|&[p, q]| Edge { p, q, left: None, right: None });

@@ -11,6 +11,7 @@ mod triangles;
 mod zip;
 
 use crate::error::{Error, Result};
+use crate::exact::predicates::is_left;
 use crate::memory;
 use crate::point::Point;
 use crate::progress::{Progress, Stage};
@@ -25,6 +26,9 @@ pub use triangles::{triangle_parts, vertices_of_part};
 
 /// The most points that one triangulation can hold: half-edges are numbered in 32 bits.
 pub const MOST_POINTS: usize = (u32::MAX as usize - 1) / SLOTS;
+
+/// Neighbors up to which a star is searched faster in a row.
+const SHORT: usize = 32;
 
 /// Memory for each point at the peak, about.
 const BYTES: usize = 128;
@@ -130,6 +134,31 @@ impl Delaunay {
     #[must_use]
     pub fn star(&self, vertex: u32) -> Star<'_> {
         self.stars.star(vertex)
+    }
+
+    /// The number of `q` in the star of `p`, if there is an edge between them: O(log) of the neighbors, which are sorted by direction.
+    #[inline]
+    #[must_use]
+    pub fn position(&self, p: u32, q: u32) -> Option<usize> {
+        let neighbors = self.star(p).neighbors;
+        if neighbors.len() <= SHORT {
+            return neighbors.iter().position(|&neighbor| neighbor == q);
+        }
+        let k = self.turned_before(p, neighbors, q);
+        (neighbors.get(k) == Some(&q)).then_some(k)
+    }
+
+    /// How many of the `neighbors` of `p` come before the direction of `q`, counter-clockwise from the first.
+    #[cold]
+    fn turned_before(&self, p: u32, neighbors: &[u32], q: u32) -> usize {
+        let at = |vertex| self.point(vertex);
+        let (from, to, first) = (at(p), at(q), neighbors[0]);
+        let is_beyond_half = |s: u32| s != first && !is_left(from, at(first), at(s));
+        let is_far = is_beyond_half(q);
+        neighbors.partition_point(|&s| {
+            let is_same_half = is_beyond_half(s) == is_far;
+            if is_same_half { is_left(from, at(s), to) } else { is_far }
+        })
     }
 
     /// All edges, sorted by p.

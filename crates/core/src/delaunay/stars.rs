@@ -67,17 +67,6 @@ impl<'a> Star<'a> {
         (!self.flat).then_some(neighbor)
     }
 
-    /// The number of `neighbor`.
-    ///
-    /// # Panics
-    /// If it is not in the star.
-    #[inline]
-    #[must_use]
-    pub fn position(&self, neighbor: u32) -> usize {
-        let position = self.neighbors.iter().position(|&other| other == neighbor);
-        position.expect("stars are symmetric")
-    }
-
     /// The wedges: pairs of successive neighbors that a triangle spans.
     pub fn wedges(&self) -> impl Iterator<Item = (u32, u32)> + use<'a> {
         let star = *self;

@@ -33,10 +33,9 @@ impl Delaunay {
     pub fn twins(&self) -> Vec<Option<u32>> {
         let wedges = self.wedge_triangles(&self.first_triangles());
         let twin = |p: u32, q: u32| {
-            let star = self.star(q);
-            let k = star.position(p);
+            let k = self.place(q, p);
             let t = wedges[self.stars.offset(q) + k];
-            (t != NONE).then(|| 3 * t + star.left(k).map_or(0, |r| corner(q, p, r)))
+            (t != NONE).then(|| 3 * t + self.star(q).left(k).map_or(0, |r| corner(q, p, r)))
         };
         let triangles = self.triangles();
         let twins = triangles.par_iter().map(|&[a, b, c]| [twin(a, b), twin(b, c), twin(c, a)]);
@@ -48,21 +47,37 @@ impl Delaunay {
     /// `first` are the first triangles of vertices.
     #[must_use]
     pub fn wedge_triangles(&self, first: &[u32]) -> Vec<u32> {
+        let own = self.own_triangles(first);
+        let of = |p: u32, q: u32| own[self.stars.offset(p) + self.place(p, q)];
         self.stars.map(NONE, |p, triangles| {
-            let mut own = first[p as usize];
             let star = self.star(p);
             for (k, triangle) in triangles.iter_mut().enumerate() {
                 let (q, Some(r)) = (star.neighbors[k], star.left(k)) else { continue };
                 *triangle = match corner(p, q, r) {
-                    0 => {
-                        own += 1;
-                        own - 1
-                    }
-                    1 => self.triangle_of(first, r, p),
-                    _ => self.triangle_of(first, q, r),
+                    0 => own[self.stars.offset(p) + k],
+                    1 => of(r, p),
+                    _ => of(q, r),
                 };
             }
         })
+    }
+
+    /// The same, but only where the half-edge is from the smallest corner of its triangle.
+    fn own_triangles(&self, first: &[u32]) -> Vec<u32> {
+        self.stars.map(NONE, |p, triangles| {
+            let (star, mut next) = (self.star(p), first[p as usize]);
+            for (k, triangle) in triangles.iter_mut().enumerate() {
+                if star.left(k).is_some_and(|r| p < r.min(star.neighbors[k])) {
+                    *triangle = next;
+                    next += 1;
+                }
+            }
+        })
+    }
+
+    /// The number of `q` in the star of `p`, which are joined.
+    fn place(&self, p: u32, q: u32) -> usize {
+        self.position(p, q).expect("stars are symmetric")
     }
 
     /// For each vertex the number of triangles whose smallest corner is smaller, and last the number of all.
@@ -83,18 +98,6 @@ impl Delaunay {
         }
         first.push(sum);
         first
-    }
-
-    /// The triangle whose smallest corner is p, to the left of p → q.
-    fn triangle_of(&self, first: &[u32], p: u32, q: u32) -> u32 {
-        let mut number = first[p as usize];
-        for pair in self.star(p).neighbors.windows(2) {
-            if pair[0] == q {
-                break;
-            }
-            number += u32::from(p < pair[0].min(pair[1]));
-        }
-        number
     }
 
     /// The circumcenters, in the scale of the input, in the order of [`triangles`](Self::triangles).

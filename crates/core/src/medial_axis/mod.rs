@@ -20,6 +20,7 @@ use crate::trace::trace_edges;
 use circles::Circles;
 pub use far::MedialAxis;
 use std::cell::OnceCell;
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// The Voronoi edges whose dual is not an edge of `curve`.
@@ -46,14 +47,15 @@ pub fn medial_axis(
     let circles = Circles::new(delaunay, &first, progress)?;
     let wedges = delaunay.wedge_triangles(&first);
     drop(first);
-    let mesh = Mesh { delaunay, wedges: &wedges, curve, flips: &flips };
+    let marks = marks(delaunay, curve, &flips);
+    let mesh = Mesh { delaunay, wedges: &wedges, marks: &marks };
     let centers = one_for_each_circle(&mesh, &circles, progress)?;
     let inside = inside(&mesh, progress)?;
     let found = OfVertices::new(inside.len(), 2, progress, |p, found| {
         append(&mesh, p, inside[p as usize], &centers, found);
     })?;
     let rays = rays(&mesh, &centers);
-    drop((centers, wedges));
+    drop((centers, wedges, marks));
     let axis = collect(delaunay, found, &rays, circles, progress)?;
     Ok(far::at_infinity(axis, place_of(delaunay)))
 }
@@ -75,17 +77,33 @@ struct Mesh<'a> {
     delaunay: &'a Delaunay,
     /// The triangle to the left of each half-edge.
     wedges: &'a [u32],
-    curve: &'a Adjacency,
-    /// For each edge of the curves: does it separate inside and outside?
-    flips: &'a [bool],
+    /// What is known of each half-edge.
+    marks: &'a [Mark],
+}
+
+/// A half-edge among those from its vertex.
+#[derive(Debug, Clone, Copy, Default)]
+struct Mark {
+    /// Is it an edge of the curves?
+    is_chosen: bool,
+    /// Do an odd number of those before it, or it itself, separate inside and outside?
+    is_odd: bool,
 }
 
 impl Mesh<'_> {
     /// The triangles to the left of the half-edges from `p`.
     fn triangles_at(&self, p: u32) -> &[u32] {
-        let (start, count) =
-            (self.delaunay.stars().offset(p), self.delaunay.star(p).neighbors.len());
-        &self.wedges[start..start + count]
+        &self.wedges[self.half_edges(p)]
+    }
+
+    /// The half-edges from `p`.
+    fn marks_at(&self, p: u32) -> &[Mark] {
+        &self.marks[self.half_edges(p)]
+    }
+
+    fn half_edges(&self, p: u32) -> Range<usize> {
+        let start = self.delaunay.stars().offset(p);
+        start..start + self.delaunay.star(p).neighbors.len()
     }
 
     /// The pairs of triangles on both sides of edges from `p` to later vertices that are on one circle.
@@ -104,14 +122,6 @@ impl Mesh<'_> {
             }
         }
     }
-
-    /// How many of the first `count` half-edges from `p` separate inside and outside?
-    fn flips_before(&self, p: u32, count: usize) -> usize {
-        let first = &self.delaunay.star(p).neighbors[..count];
-        let is_first =
-            |&&(q, number): &&(u32, u32)| self.flips[number as usize] && first.contains(&q);
-        self.curve.of(p).iter().filter(is_first).count()
-    }
 }
 
 /// Of the triangles at a vertex those to the left and to the right of its half-edge `k`.
@@ -128,9 +138,7 @@ fn flipping(delaunay: &Delaunay, curve: &Adjacency, progress: &Progress) -> Resu
     progress.enter(Stage::Trace, delaunay.points().len())?;
     let simple = |v: usize| match curve.of(v as u32) {
         [] => true,
-        [(a, _), (b, _)] => {
-            [a, b].iter().all(|end| delaunay.star(v as u32).neighbors.contains(end))
-        }
+        [(a, _), (b, _)] => [a, b].iter().all(|&&end| delaunay.position(v as u32, end).is_some()),
         _ => false,
     };
     if all(delaunay.points().len(), progress, simple)? {
@@ -141,12 +149,24 @@ fn flipping(delaunay: &Delaunay, curve: &Adjacency, progress: &Progress) -> Resu
     for (ends, _) in traced.offsets.windows(2).zip(&traced.closed).filter(|&(_, &closed)| closed) {
         let ring = &traced.indices[ends[0]..ends[1]];
         let sides = || ring.iter().copied().zip(ring.iter().copied().cycle().skip(1));
-        if sides().all(|(p, q)| delaunay.star(p).neighbors.contains(&q)) {
+        if sides().all(|(p, q)| delaunay.position(p, q).is_some()) {
             let numbers = sides().filter_map(|(p, q)| curve.edge(p, q));
             numbers.for_each(|number| flips[number as usize] = true);
         }
     }
     Ok(flips)
+}
+
+/// The marks of all half-edges; `flips` tells which edges of the curves separate inside and outside.
+fn marks(delaunay: &Delaunay, curve: &Adjacency, flips: &[bool]) -> Vec<Mark> {
+    delaunay.stars().map(Mark::default(), |p, marks| {
+        let mut is_odd = false;
+        for (mark, &q) in marks.iter_mut().zip(delaunay.star(p).neighbors) {
+            let number = curve.edge(p, q);
+            is_odd ^= number.is_some_and(|number| flips[number as usize]);
+            *mark = Mark { is_chosen: number.is_some(), is_odd };
+        }
+    })
 }
 
 /// For each vertex: is the place to the right of its first half-edge inside an odd number of rings?
@@ -189,10 +209,10 @@ fn step_left(mesh: &Mesh<'_>, v: u32) -> (u32, bool) {
     };
     let Some(k) = star.neighbors.iter().position(|&q| is_before(q)) else { return (NONE, false) };
     let q = star.neighbors[k];
+    let back = mesh.delaunay.position(q, v).expect("stars are symmetric");
     // What is to the left of v → q is to the right of q → v.
-    let flips =
-        mesh.flips_before(v, k + 1) + mesh.flips_before(q, mesh.delaunay.star(q).position(v));
-    (q, flips % 2 == 1)
+    let right = back.checked_sub(1).is_some_and(|before| mesh.marks_at(q)[before].is_odd);
+    (q, mesh.marks_at(v)[k].is_odd != right)
 }
 
 /// For each triangle, the first of those on its circle that it is connected with.
@@ -228,13 +248,10 @@ type Found = ([u32; 2], [u32; 2], bool);
 /// Append the edges of the axis between `p` and later rows, sorted by these, with triangles as their vertices.
 ///
 /// `inner` tells whether the place to the right of the first half-edge from `p` is inside.
-fn append(mesh: &Mesh<'_>, p: u32, mut inner: bool, centers: &[u32], found: &mut Vec<Found>) {
+fn append(mesh: &Mesh<'_>, p: u32, inner: bool, centers: &[u32], found: &mut Vec<Found>) {
     let (rows, triangles, start) = (mesh.delaunay.rows(), mesh.triangles_at(p), found.len());
-    for (k, &q) in mesh.delaunay.star(p).neighbors.iter().enumerate() {
-        if let Some(number) = mesh.curve.edge(p, q) {
-            inner ^= mesh.flips[number as usize];
-            continue;
-        }
+    let half_edges = mesh.delaunay.star(p).neighbors.iter().zip(mesh.marks_at(p)).enumerate();
+    for (k, (&q, mark)) in half_edges.filter(|(_, (_, mark))| !mark.is_chosen) {
         let samples = [p, q].map(|vertex| rows[vertex as usize]);
         if samples[0] > samples[1] {
             continue;
@@ -242,7 +259,7 @@ fn append(mesh: &Mesh<'_>, p: u32, mut inner: bool, centers: &[u32], found: &mut
         let Some(sides) = sides(triangles, k) else { continue };
         let sides = sides.map(|t| centers[t as usize]);
         if sides[0] != sides[1] {
-            found.push((samples, sides, inner));
+            found.push((samples, sides, inner != mark.is_odd));
         }
     }
     found[start..].sort_unstable_by_key(|&(samples, _, _)| samples);
@@ -308,9 +325,9 @@ struct Ray {
 /// The rays, sorted by their samples; their origins are one for each circle.
 fn rays(mesh: &Mesh<'_>, centers: &[u32]) -> Vec<Ray> {
     let delaunay = mesh.delaunay;
-    let hull = delaunay.hull().iter().map(|&p| (p, delaunay.star(p).neighbors[0]));
-    let mut rays: Vec<_> = hull
-        .filter(|&(p, q)| mesh.curve.edge(p, q).is_none())
+    let open = delaunay.hull().iter().filter(|&&p| !mesh.marks_at(p)[0].is_chosen);
+    let mut rays: Vec<_> = open
+        .map(|&p| (p, delaunay.star(p).neighbors[0]))
         .map(|(p, q)| Ray {
             samples: crate::edges::rows(delaunay, p, q),
             side: (p, q),

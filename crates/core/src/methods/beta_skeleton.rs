@@ -20,6 +20,9 @@ use crate::space::bounds::Bounds;
 use crate::space::boxes::Boxes;
 use std::cmp::Ordering::{Equal, Greater};
 
+/// Neighbors of either end of an edge that are looked at before the boxes; of very many, few.
+const NEAR: usize = 32;
+
 /// The family of forbidden regions for β > 1; for β ≤ 1 they are the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
@@ -76,7 +79,7 @@ pub fn is_beta_skeleton(
     let bound = AngleBound::of_beta(beta);
     let is_chosen = |edge: &Edge| curve.edge(edge.p, edge.q).is_some();
     let agrees = |edge: Edge| is_chosen(&edge) == has_angles(delaunay, edge, &bound, &bound);
-    let in_triangulation = |&[p, q]: &[u32; 2]| delaunay.star(p).neighbors.contains(&q);
+    let in_triangulation = |&[p, q]: &[u32; 2]| delaunay.position(p, q).is_some();
     let own = curve.edges();
     let is_within = all(own.len(), progress, |k| in_triangulation(&own[k]))?;
     Ok(is_within
@@ -111,7 +114,7 @@ impl Lune {
             self.disk_holds(p, q, r) && self.disk_holds(q, p, r)
         };
         let near = [edge.p, edge.q].map(|vertex| delaunay.star(vertex).neighbors);
-        if near.into_iter().flatten().any(|&r| holds(r)) {
+        if near.into_iter().flat_map(|star| star.iter().take(NEAR)).any(|&r| holds(r)) {
             return false;
         }
         let [a, b] = [sub(q, p), sub(p, q)].map(|chord| chord.map(|x| x * self.beta / 2.0));

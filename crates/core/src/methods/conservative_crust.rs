@@ -93,7 +93,10 @@ impl Disks<'_> {
     /// Visits the cells that meet the disk, starting from those of p and q. Where no Voronoi vertex is
     /// inside, the disk leads from cell to cell only through the insides of Voronoi edges.
     fn crossed(&self, p: u32, q: u32) -> Option<Vec<u32>> {
-        let (mut cells, mut crossed, mut next) = (vec![p, q], Vec::new(), 0);
+        // That with fewer neighbors first: most edges end at a center of their own triangles, which both cells have.
+        let mut cells = vec![p, q];
+        cells.sort_by_key(|&end| self.delaunay.star(end).neighbors.len());
+        let (mut crossed, mut next) = (Vec::new(), 0);
         while let Some(&cell) = cells.get(next) {
             #[cfg(test)]
             crate::progress::work_tests::count(crate::progress::work_tests::CELL);

@@ -75,32 +75,43 @@ impl Curves<'_> {
     /// A cancelled `progress`.
     fn grow(&mut self, seed: Ranked, progress: &Progress) -> Result<()> {
         self.join(seed.p, seed.q);
-        let mut ends = vec![seed.p, seed.q];
+        let mut ends = [seed.p, seed.q].map(|end| (end, self.step(end))).to_vec();
         loop {
-            let steps = ends.iter().filter_map(|&end| Some((self.step(end)?, end)));
+            let steps = ends.iter().filter_map(|&(end, step)| Some((step?, end)));
+            let open = steps.filter(|&(step, from)| self.degree(across(step, from)) < 2);
             let shorter = |(a, _): &(Ranked, u32), (b, _): &(Ranked, u32)| {
                 a.compare(b, self.neighborhood.delaunay)
             };
-            let Some((step, from)) = steps.min_by(shorter) else { return Ok(()) };
-            let to = if step.p == from { step.q } else { step.p };
+            let Some((step, from)) = open.min_by(shorter) else { return Ok(()) };
+            let to = across(step, from);
             let was_free = self.degree(to) == 0;
             self.join(from, to);
             // A ring is closed, or another curve, which has stopped, is reached: nothing grows here.
-            ends.retain(|&end| end != from && end != to);
-            ends.extend(Some(to).filter(|_| was_free));
+            ends.retain(|&(end, _)| end != from && end != to);
+            // What is behind the other end of a seed has changed; any other end waits as it is.
+            for (end, step) in ends.iter_mut().filter(|(end, _)| self.behind(*end) == from) {
+                *step = self.step(*end);
+            }
+            if was_free {
+                ends.push((to, self.step(to)));
+            }
             progress.advance(1)?;
         }
     }
 
-    /// The edge by which the end `from` grows, if it does.
+    /// The point that an end of one edge came from.
+    fn behind(&self, end: u32) -> u32 {
+        self.joined[end as usize][0]
+    }
+
+    /// The edge by which the end `from` grows, if its other end is free then.
     fn step(&self, from: u32) -> Option<Ranked> {
         let delaunay = self.neighborhood.delaunay;
-        let behind = self.joined[from as usize][0];
+        let behind = self.behind(from);
         let is_ahead = |&to: &u32| to != behind && !self.joined[behind as usize].contains(&to);
         let steps = self.neighborhood.of(from).filter(is_ahead);
-        let steps = steps.map(|to| (Ranked::new(delaunay, from, to), to));
-        let (step, to) = steps.min_by(|(a, _), (b, _)| a.compare(b, delaunay))?;
-        (self.degree(to) < 2).then_some(step)
+        let steps = steps.map(|to| Ranked::new(delaunay, from, to));
+        steps.min_by(|a, b| a.compare(b, delaunay))
     }
 
     fn edges(&self) -> Edges {
@@ -109,6 +120,11 @@ impl Curves<'_> {
         let once = pairs.filter(|&(p, q)| q != NONE && p < q);
         once.map(|(p, q)| rows(self.neighborhood.delaunay, p, q)).collect()
     }
+}
+
+/// The end of an edge that is not `from`.
+fn across(edge: Ranked, from: u32) -> u32 {
+    if edge.p == from { edge.q } else { edge.p }
 }
 
 #[cfg(test)]

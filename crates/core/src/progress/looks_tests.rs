@@ -2,18 +2,20 @@
 
 use super::Progress;
 use crate::adjacency::Adjacency;
+use crate::connect::{self, Hints};
 use crate::delaunay::Delaunay;
 use crate::edges::Edges;
 use crate::error::{Error, Result};
 use crate::interpolant::Interpolant;
 use crate::point::Point;
+use crate::ridge::ridge;
 use crate::{certify, medial_axis, methods, nesting, trace};
 use std::panic::Location;
 use std::sync::{LazyLock, Mutex};
 use std::time::{Duration, Instant};
 
 /// What this thread has used of a processor, to some milliseconds; where that is not told, the time.
-fn processor_time() -> Duration {
+pub fn processor_time() -> Duration {
     static START: LazyLock<Instant> = LazyLock::new(Instant::now);
     let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
     let used = told.and_then(|numbers| numbers.split(' ').next()?.parse().ok());
@@ -80,7 +82,7 @@ fn points(lattice: bool, count: usize) -> Vec<Point> {
     (0..count).map(at).collect()
 }
 
-type Call<'a> = (&'static str, Box<dyn Fn(&Progress) -> Result<()> + Sync + 'a>);
+pub type Call<'a> = (&'static str, Box<dyn Fn(&Progress) -> Result<()> + Sync + 'a>);
 
 const METHODS: [(&str, &[f64]); 18] = [
     ("alpha-shape", &[0.01]),
@@ -103,7 +105,8 @@ const METHODS: [(&str, &[f64]); 18] = [
     ("sig-delaunay", &[]),
 ];
 
-fn calls<'a>(points: &'a [Point], delaunay: &'a Delaunay, edges: &'a Edges) -> Vec<Call<'a>> {
+/// All calls on a triangulation of these points, and edges of it.
+pub fn calls<'a>(points: &'a [Point], delaunay: &'a Delaunay, edges: &'a Edges) -> Vec<Call<'a>> {
     let mut calls: Vec<Call<'a>> = Vec::new();
     for (name, parameters) in METHODS {
         let call = |p: &Progress| methods::select(delaunay, name, parameters, p).map(|_| ());
@@ -128,6 +131,11 @@ fn calls<'a>(points: &'a [Point], delaunay: &'a Delaunay, edges: &'a Edges) -> V
             certify::ratios(delaunay, edges, &interpolant, p).map(|_| ())
         }),
     ));
+    let constants = &connect::CONSTANTS;
+    let hints = Hints::default;
+    let call = move |p: &Progress| connect::connect(delaunay, constants, &hints(), p).map(|_| ());
+    calls.push(("connect", Box::new(call)));
+    calls.push(("ridge", Box::new(move |p: &Progress| ridge(delaunay, None, p).map(|_| ()))));
     calls.push((
         "trace",
         Box::new(move |p: &Progress| {

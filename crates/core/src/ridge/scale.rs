@@ -20,6 +20,9 @@ const SLIM: [f64; 2] = [0.3, 0.42];
 const STEP: f64 = std::f64::consts::SQRT_2;
 const STEPS: i32 = 16;
 
+/// The most neighbors of a point whose neighbors are near each other: those of a circle's center are not, though they are all its own.
+const HUB: usize = 256;
+
 /// The width of the noise, and of the windows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scale {
@@ -126,10 +129,12 @@ fn first_windows(delaunay: &Delaunay, cloud: &Cloud<'_>) -> Vec<f64> {
     cloud.each(distances.len(), |_, v| agreed(delaunay, v, |u| distances[u]))
 }
 
-/// The neighbors of a vertex and their neighbors; near ones come more than once.
+/// The neighbors of a vertex and their neighbors, but for those of hubs; near ones come more than once.
 fn rings(delaunay: &Delaunay, v: usize) -> impl Iterator<Item = usize> {
-    let star = delaunay.star(v as u32).neighbors.iter();
-    star.flat_map(|&u| delaunay.star(u).neighbors.iter().copied().chain([u])).map(|u| u as usize)
+    let star = |u: u32| delaunay.star(u).neighbors;
+    let beyond = move |u: u32| if star(u).len() > HUB { &[] } else { star(u) };
+    let near = star(v as u32).iter();
+    near.flat_map(move |&u| beyond(u).iter().copied().chain([u])).map(|u| u as usize)
 }
 
 /// The median of a value over two rings of neighbors; what is not a number is larger than all that is.
