@@ -134,3 +134,32 @@ impl Form<2> for Excess {
         dots.minus(&self.crosses.number::<T>().times(&cross.times(&cross)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::brink_tests::at_brinks;
+
+    #[test]
+    fn an_angle_is_compared_right_where_that_changes() {
+        let bounds =
+            [AngleBound::of_beta(1.7), AngleBound::of_beta(0.3), AngleBound::of_gamma(0.2)];
+        for bound in &bounds {
+            let check = |p, [q, r]: [Point; 2], _| {
+                if p != r && q != r {
+                    assert_eq!(bound.compare(p, q, r), bound.exact(p, q, r));
+                }
+            };
+            at_brinks(&bound.excess, false, check);
+            at_brinks(&OppositeDot, false, check);
+        }
+    }
+
+    #[test]
+    fn the_excess_is_right_where_its_sign_changes() {
+        let excess = AngleBound::of_beta(1.7).excess;
+        at_brinks(&excess, false, |origin, points, expected| {
+            assert_eq!(sign::sign(&excess, origin, &points), expected);
+        });
+    }
+}

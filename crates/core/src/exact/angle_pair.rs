@@ -67,3 +67,20 @@ impl Form<3> for AnglePair {
         x.times(&a.times(&b)).plus(&y.times(&mixed)).plus(&z.times(&c.times(&d)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::brink_tests::at_brinks;
+    use crate::exact::sign::tests::assert_bounded;
+
+    #[test]
+    fn a_pair_of_angles_is_judged_right_where_that_changes() {
+        for pair in [AnglePair::dual_length(), AnglePair::sum(0.0), AnglePair::sum(-3.7)] {
+            assert_bounded(&pair);
+            at_brinks(&pair, false, |p, [q, left, right], sign| {
+                assert_eq!(pair.admits(p, q, left, right), sign != Less);
+            });
+        }
+    }
+}

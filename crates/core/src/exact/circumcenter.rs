@@ -130,6 +130,8 @@ impl<T: Number> HomogeneousCenter<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exact::brink_tests::at_brinks;
+    use crate::exact::predicates::orientation;
     use crate::exact::sign::tests::assert_bounded;
 
     #[test]
@@ -138,5 +140,20 @@ mod tests {
             assert_bounded(&Numerator { axis });
         }
         assert_bounded(&Denominator);
+    }
+    /// Near where a coordinate of the center changes its sign, and on triangles of all sizes and slopes.
+    #[test]
+    fn a_center_is_as_near_as_its_error_says() {
+        at_brinks(&Numerator { axis: 0 }, false, |a, [b, c], _| {
+            if orientation(a, b, c).is_eq() {
+                return;
+            }
+            let center = Center::estimate([a, b, c], a);
+            let exact =
+                [0, 1].map(|axis| sign::quotient(&Numerator { axis }, &Denominator, a, &[b, c]));
+            let slack = sign::ACCURACY * (exact[0].abs() + exact[1].abs());
+            let off = length(sub(center.at, exact));
+            assert!(off.is_nan() || off <= center.error + slack, "{off} > {}", center.error);
+        });
     }
 }

@@ -3,6 +3,8 @@
 pub mod angle;
 pub mod angle_bound;
 pub mod angle_pair;
+#[cfg(test)]
+pub(crate) mod brink_tests;
 pub mod circumcenter;
 pub mod constant;
 pub mod double_double;

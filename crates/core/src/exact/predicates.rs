@@ -167,6 +167,36 @@ impl Form<3> for InCircle {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exact::brink_tests::at_brinks;
+    use crate::exact::sign::tests::assert_bounded;
+
+    #[test]
+    fn values_are_within_their_bounds() {
+        assert_bounded(&Orientation);
+        assert_bounded(&InCircle);
+    }
+
+    #[test]
+    fn orientation_is_right_where_it_changes() {
+        at_brinks(&Orientation, false, |c, [a, b], sign| {
+            assert_eq!(orientation(a, b, c), sign);
+            let (base, seen) = (Base { a, b }, Base { a, b }.sight(c));
+            assert_eq!(base.is_left(c, &seen), sign == Greater);
+        });
+    }
+
+    #[test]
+    fn a_point_in_a_circle_is_told_where_that_changes() {
+        at_brinks(&InCircle, false, |d, [a, b, c], sign| {
+            if !is_left(a, b, c) {
+                return;
+            }
+            assert_eq!(in_circle(a, b, c, d), sign == Greater);
+            let base = Base { a, b };
+            let seen = [base.sight(c), base.sight(d)];
+            assert_eq!(base.in_circle([c, d], seen.each_ref()), sign == Greater);
+        });
+    }
 
     #[test]
     fn exact_branches_agree_with_each_other_on_a_lattice_a_few_ulps_off() {

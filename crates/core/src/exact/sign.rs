@@ -109,7 +109,11 @@ fn fixed_sign<const N: usize, F: Form<N>>(
 }
 
 /// The sign of `form` in integers of any size.
-fn big_sign<const N: usize, F: Form<N>>(form: &F, origin: Point, points: &[Point; N]) -> Ordering {
+pub(super) fn big_sign<const N: usize, F: Form<N>>(
+    form: &F,
+    origin: Point,
+    points: &[Point; N],
+) -> Ordering {
     #[cfg(test)]
     crate::progress::work_tests::count(
         crate::progress::work_tests::BIG_BIT * form.bound(53) as usize,
@@ -162,6 +166,7 @@ fn big_quotient<const N: usize>(
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use crate::exact::brink_tests::at_brinks;
 
     /// Does the bound of `form` hold, for coordinates of many sizes and for the largest there are? Its integers overflow if it does not.
     pub(crate) fn assert_bounded<const N: usize>(form: &impl Form<N>) {
@@ -195,6 +200,14 @@ pub(crate) mod tests {
         fn value<T: Number>(&self, [a, b]: &[[T; 2]; 2]) -> T {
             cross(a, b)
         }
+    }
+
+    #[test]
+    fn every_rung_gives_the_sign_of_integers_where_it_changes() {
+        at_brinks(&Turn, false, |origin, points, expected| {
+            assert_eq!(sign(&Turn, origin, &points), expected);
+            assert_eq!(exact_sign(&Turn, origin, &points), expected);
+        });
     }
 
     #[test]

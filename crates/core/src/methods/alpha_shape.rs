@@ -110,3 +110,23 @@ impl Form<4> for Circumradius {
         a.times(&b).times(&c).minus(&height.times(&height))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::brink_tests::at_brinks;
+    use crate::exact::sign::tests::assert_bounded;
+
+    #[test]
+    fn values_are_within_their_bounds() {
+        assert_bounded(&Span);
+        assert_bounded(&Circumradius);
+    }
+
+    #[test]
+    fn a_circumradius_is_compared_right_where_that_changes() {
+        at_brinks(&Circumradius, true, |_, [p, q, r, [radius, _]], sign| {
+            assert_eq!(Radius(radius.abs()).compare_circumradius(p, q, r), sign);
+        });
+    }
+}

@@ -160,12 +160,22 @@ impl Form<2> for TouchingDisk {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exact::brink_tests::at_brinks;
     use crate::exact::sign::tests::assert_bounded;
 
     #[test]
     fn values_are_within_their_bounds() {
         for beta in [1.0, 1.7, 1e-9, 12345.678] {
             assert_bounded(&Lune::new(beta).disk);
+        }
+    }
+    #[test]
+    fn a_point_in_a_touching_disk_is_told_where_that_changes() {
+        for beta in [1.0, 1.7, 12345.678] {
+            let lune = Lune::new(beta);
+            at_brinks(&lune.disk, false, |p, [q, r], sign| {
+                assert_eq!(lune.disk_holds(p, q, r), sign == Greater);
+            });
         }
     }
 }

@@ -133,6 +133,7 @@ impl Form<3> for Longer {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exact::brink_tests::at_brinks;
     use crate::exact::sign::tests::assert_bounded;
     use crate::progress::Progress;
 
@@ -140,6 +141,11 @@ mod tests {
     fn values_are_within_their_bounds() {
         assert_bounded(&Nearer);
         assert_bounded(&Longer);
+    }
+
+    #[test]
+    fn distances_are_compared_right_where_that_changes() {
+        at_brinks(&Nearer, false, |p, [a, b], sign| assert_eq!(compare_distances(p, a, b), sign));
     }
 
     /// Of some lengths the square is known whole, of others, with coordinates next to none, it is not.

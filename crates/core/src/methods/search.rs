@@ -259,11 +259,28 @@ impl Form<2> for RoomBehind {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exact::angle_bound::OppositeDot;
+    use crate::exact::brink_tests::at_brinks;
     use crate::exact::sign::tests::assert_bounded;
 
     #[test]
     fn values_are_within_their_bounds() {
         assert_bounded(&RoomAhead);
         assert_bounded(&RoomBehind);
+    }
+    /// Where it is in doubt whether the neighbor is ahead, there may be room that is not seen.
+    #[test]
+    fn no_room_is_seen_where_there_is_none() {
+        let check = |s, [end, neighbor]: [Point; 2], _| {
+            let at = [end, neighbor];
+            let room = if sign::sign(&sign::Dot, s, &at) == Greater {
+                sign::sign(&OppositeDot, s, &at) != Less && sign::sign(&RoomAhead, s, &at) != Less
+            } else {
+                sign::sign(&RoomBehind, s, &at) != Less
+            };
+            assert!(room || !has_room(s, end, neighbor));
+        };
+        at_brinks(&RoomAhead, false, check);
+        at_brinks(&RoomBehind, false, check);
     }
 }

@@ -1,0 +1,75 @@
+//! Where a filter is most likely to mislead: a few doubles around the place at which a decision changes.
+
+use crate::exact::sign::{Form, big_sign};
+use crate::point::Point;
+use std::cmp::Ordering;
+
+/// How many sets of points are tried; some change no sign, however one coordinate is moved.
+const TRIALS: usize = 600;
+
+/// Coordinates of many sizes: a filter that takes a size for too small is misled by those that differ most.
+struct Coordinates(u64);
+
+impl Coordinates {
+    fn below(&mut self, limit: u64) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) % limit
+    }
+    fn coordinate(&mut self) -> f64 {
+        // Few bits make ties, many make roundings.
+        let bits = [3, 26, 52][self.below(3) as usize];
+        let mantissa = self.below(1 << bits) as f64 - 2f64.powi(bits - 1);
+        mantissa * 2f64.powi(-bits - self.below(24) as i32)
+    }
+    fn point(&mut self) -> Point {
+        [self.coordinate(), self.coordinate()]
+    }
+}
+
+/// Check points at which the sign of `form` changes, to the next double of one coordinate, and their neighbors.
+///
+/// The sign that `check` is told is that by integers of any size. The origin is zero if `is_central`.
+pub fn at_brinks<const N: usize>(
+    form: &impl Form<N>,
+    is_central: bool,
+    mut check: impl FnMut(Point, [Point; N], Ordering),
+) {
+    let mut random = Coordinates(20_261);
+    let mut changes = 0;
+    for _ in 0..TRIALS {
+        let origin = if is_central { [0.0; 2] } else { random.point() };
+        let points: [Point; N] = std::array::from_fn(|_| random.point());
+        let (k, axis) = (random.below(N as u64) as usize, random.below(2) as usize);
+        let moved = |x: f64| {
+            let mut points = points;
+            points[k][axis] = x;
+            (points, big_sign(form, origin, &points))
+        };
+        let ends = [random.coordinate(), random.coordinate()];
+        let Some(brink) = brink(ends, |x| moved(x).1) else { continue };
+        changes += 1;
+        let first = (0..3).fold(brink, |x, _| x.next_down());
+        for x in std::iter::successors(Some(first), |x| Some(x.next_up())).take(8) {
+            let (points, sign) = moved(x);
+            check(origin, points, sign);
+        }
+    }
+    assert!(changes > TRIALS / 20, "only {changes} changes of sign were met");
+}
+
+/// Where `sign` changes between the ends, if it differs there.
+fn brink([mut a, mut b]: [f64; 2], sign: impl Fn(f64) -> Ordering) -> Option<f64> {
+    let start = sign(a);
+    if sign(b) == start {
+        return None;
+    }
+    loop {
+        let middle = f64::midpoint(a, b);
+        if middle == a || middle == b {
+            return Some(a);
+        }
+        *(if sign(middle) == start { &mut a } else { &mut b }) = middle;
+    }
+}
