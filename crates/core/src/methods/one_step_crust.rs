@@ -22,7 +22,9 @@ pub fn one_step_crust(delaunay: &Delaunay, progress: &Progress) -> Result<Edges>
 }
 
 /// Is `edge` in the one-step crust?
-#[inline]
+// A call costs a tenth of the test.
+#[allow(clippy::inline_always)]
+#[inline(always)]
 pub(crate) fn is_in(delaunay: &Delaunay, edge: Edge) -> bool {
     let (p, q) = (delaunay.point(edge.p), delaunay.point(edge.q));
     match (edge.left, edge.right) {

@@ -93,8 +93,13 @@ impl Visit {
             #[cfg(test)]
             crate::progress::work_tests::count(crate::progress::work_tests::CELL);
             let site = delaunay.point(cell);
-            let half = Half::of([edge.q, edge.p].get(next).copied(), delaunay, site, ratio);
-            let part = Part::new(disk, pencil, site, half, apex);
+            let (chord, known) = match next {
+                0 => (pencil.chord(), if apex == NONE { [NONE; 2] } else { [edge.q; 2] }),
+                1 => (sub(pencil.p, pencil.q), if apex == NONE { [NONE; 2] } else { [edge.p; 2] }),
+                // Nothing is ahead.
+                _ => ([0.0; 2], [edge.p, edge.q]),
+            };
+            let part = Part::new(disk, pencil, site, Half { chord, ratio }, apex, known);
             found = self.search_cell(delaunay, next, pencil, &part);
             next += 1;
         }
@@ -172,12 +177,14 @@ struct Part<'a> {
     half: Half,
     /// The apex of the edge's own triangle whose center the circle goes through, if that is so.
     apex: u32,
+    /// Neighbors at whose sides nothing is to be found: where they have been visited, and where the ends are the edge's own centers, of which
+    /// then neither is inside.
+    known: [u32; 2],
 }
 
 /// The half of a disk that is nearer to one end of the edge.
 struct Half {
-    /// The other end, and the vector to it.
-    end: u32,
+    /// The vector to the other end.
     chord: Point,
     /// The disk's radius over the length of the chord.
     ratio: f64,
@@ -185,10 +192,17 @@ struct Half {
 
 impl<'a> Part<'a> {
     /// The part of `disk` in the cell of `site`, and in the half of it that `half` tells.
-    fn new(disk: &'a Disk, pencil: &Pencil, site: Point, half: Half, apex: u32) -> Self {
+    fn new(
+        disk: &'a Disk,
+        pencil: &Pencil,
+        site: Point,
+        half: Half,
+        apex: u32,
+        known: [u32; 2],
+    ) -> Self {
         let center = sub(disk.center, sub(site, pencil.p));
         let size = center[0].abs() + center[1].abs() + disk.radius;
-        Self { disk, site, center, doubt: 1e-14 * size + 2.0 * disk.error, half, apex }
+        Self { disk, site, center, doubt: 1e-14 * size + 2.0 * disk.error, half, apex, known }
     }
 
     /// Can the disk cross the side of the cell to the neighbor at `this`, given that it holds none of its ends? False only if it certainly
@@ -232,32 +246,24 @@ impl<'a> Part<'a> {
         count
     }
 
-    /// Can a point of this part be nearer to `neighbor` than to the site? False only if certainly none is, or it is the other end and
-    /// its side has no end inside the disk.
+    /// Can a point of this part be nearer to `neighbor` than to the site? False only if certainly none is, or nothing is to be
+    /// found at that side.
+    ///
+    /// The half disk ends on the bisector of p and q, there at the center of the own triangle, which is on the apex's bisector, too.
     #[inline]
     fn may_reach(&self, neighbor: u32, at: Point) -> bool {
         let g = sub(at, self.site);
         let span = g[0].abs() + g[1].abs();
         let far = dot(g, g);
-        let Half { end, chord, ratio } = self.half;
+        let Half { chord, ratio } = self.half;
         let is_ahead = dot(chord, g) > 1e-14 * span * (chord[0].abs() + chord[1].abs());
         // Where the direction is in doubt the whole disk serves, for it reaches no less.
         let [ahead, whole] = [ratio * cross(chord, g).abs(), self.disk.radius * far.sqrt()];
         let width = if is_ahead { ahead } else { whole };
         let reach = dot(self.center, g) + width + (self.doubt + 1e-14 * span) * span + UNDERFLOW;
-        // The half disk ends on the bisector of p and q, there at the center of the own triangle, which is on the apex's bisector, too.
-        let is_own = self.apex != NONE && (neighbor == self.apex && is_ahead || neighbor == end);
+        let is_known = self.known.contains(&neighbor) || neighbor == self.apex && is_ahead;
         // An unknown (not a number) counts as reaching.
-        !is_own && (reach.is_nan() || reach > far / 2.0)
-    }
-}
-
-impl Half {
-    /// The half nearer to `site`, if that is an end of the edge; and else one that nothing is ahead of.
-    #[inline]
-    fn of(end: Option<u32>, delaunay: &Delaunay, site: Point, ratio: f64) -> Self {
-        let chord = end.map_or([0.0; 2], |end| sub(delaunay.point(end), site));
-        Self { end: end.unwrap_or(NONE), chord, ratio }
+        !is_known && (reach.is_nan() || reach > far / 2.0)
     }
 }
 
