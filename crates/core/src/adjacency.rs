@@ -96,6 +96,12 @@ impl Adjacency {
         &self.edges
     }
 
+    /// The number of vertices.
+    #[must_use]
+    pub fn vertices(&self) -> usize {
+        self.incidence.offsets.len().saturating_sub(2)
+    }
+
     /// The neighbors of `vertex`, each with the number of the edge to it.
     #[inline]
     #[must_use]

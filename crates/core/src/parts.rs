@@ -60,7 +60,18 @@ pub fn map<T: Clone + Send>(
     progress: &Progress,
     value: impl Fn(usize) -> T + Sync,
 ) -> Result<Vec<T>> {
-    let mut values = vec![empty; count];
+    replace(vec![empty; count], progress, value)
+}
+
+/// The `value` of each number, in place of those of `values`.
+///
+/// # Errors
+/// A cancelled `progress`.
+pub fn replace<T: Send>(
+    mut values: Vec<T>,
+    progress: &Progress,
+    value: impl Fn(usize) -> T + Sync,
+) -> Result<Vec<T>> {
     try_each(values.chunks_mut(GRAIN).collect(), |k, part| {
         let first = k * GRAIN;
         for range in short(first..first + part.len(), progress) {
@@ -71,6 +82,14 @@ pub fn map<T: Clone + Send>(
         progress.advance(part.len())
     })?;
     Ok(values)
+}
+
+/// Copies of a `value`, written in parallel; zeros alone come from the system without being written.
+pub fn copies<T: Copy + Send + Sync>(value: T, count: usize) -> Vec<T> {
+    if count <= GRAIN {
+        return vec![value; count];
+    }
+    (0..count).into_par_iter().with_min_len(GRAIN).map(|_| value).collect()
 }
 
 /// Do all numbers below `count` fulfill `condition`? One that does not ends the search.

@@ -13,7 +13,8 @@ use crate::space::segment::{Segment, push};
 const LINK: f64 = 1.0;
 /// Nor are those farther apart than this many times the samples that they belong to: rounding moved them.
 const LEAP: f64 = 32.0;
-/// The segments of the axis, in about the order of the vertices.
+
+/// The segments of the axis, in parts of successive vertices.
 ///
 /// # Errors
 /// A cancelled `progress`.
@@ -21,14 +22,13 @@ pub fn axis(
     delaunay: &Delaunay,
     bends: &[Option<Bend>],
     progress: &Progress,
-) -> Result<Vec<Segment>> {
-    let parts = in_parts(bends.len(), GRAIN, progress, |vertices| {
+) -> Result<Vec<Vec<Segment>>> {
+    in_parts(bends.len(), GRAIN, progress, |vertices| {
         let vertices = vertices.start as u32..vertices.end as u32;
-        let mut segments = Vec::new();
+        let mut segments = Vec::with_capacity(2 * vertices.len());
         Part::new(delaunay, bends, vertices).collect(&mut segments);
         segments
-    })?;
-    Ok(parts.concat())
+    })
 }
 
 /// The part of the axis that successive vertices answer for.

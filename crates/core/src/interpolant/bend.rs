@@ -8,7 +8,7 @@ use super::stencil::Scale;
 use crate::adjacency::Adjacency;
 use crate::delaunay::Delaunay;
 use crate::error::Result;
-use crate::parts::{GRAIN, map, try_each};
+use crate::parts::{GRAIN, copies, replace, try_each};
 use crate::point::{Point, cross, dot, sub};
 use crate::progress::Progress;
 
@@ -108,8 +108,10 @@ pub fn bends(
     progress: &Progress,
 ) -> Result<Vec<Option<Bend>>> {
     let count = delaunay.points().len();
-    let mut bends = map(count, None, progress, |v| circle(delaunay, curve, v as u32))?;
-    let fits = map(count, None, progress, |v| Fit::new(&bends, scale, v as u32))?;
+    let circle = |v| circle(delaunay, curve, v as u32);
+    let mut bends = replace(copies(None, count), progress, circle)?;
+    let fit = |v| Fit::new(&bends, scale, v as u32);
+    let fits = replace(copies(None, count), progress, fit)?;
     try_each(bends.chunks_mut(GRAIN).collect(), |k, part| {
         for (bend, fit) in part.iter_mut().zip(&fits[k * GRAIN..]) {
             if let (Some(bend), Some(fit)) = (bend, fit) {
@@ -164,7 +166,7 @@ fn arc(d: Point, curvature: f64) -> f64 {
 }
 
 /// What makes a quadratic of the mean curvature at a vertex and those adjacent, in the vertex's direction.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 struct Fit {
     /// Half the second derivative of the quadratic that has these means, not limited.
     second: f64,

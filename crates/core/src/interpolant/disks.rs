@@ -83,10 +83,7 @@ fn shrunk(
         start = nearest(delaunay, start, center);
         let d = sub(delaunay.point(start), s);
         let through = 2.0 * dot(normal, d) / dot(d, d);
-        if start == v
-            || near.passes_over(bends[start as usize].as_ref(), d)
-            || through <= curvature * (1.0 + EMPTY)
-        {
+        if start == v || near.passes_over(bends, start, d) || through <= curvature * (1.0 + EMPTY) {
             break;
         }
         curvature = through;
@@ -161,14 +158,14 @@ impl<'a> Near<'a> {
                 < ends[0].min(ends[1])
         };
         let star = delaunay.star(v).neighbors;
-        let is_sparse = star.iter().any(|&q| bends[q as usize].is_none() && is_near(q));
+        let is_sparse = star.iter().any(|&q| is_near(q) && bends[q as usize].is_none());
         Self { bend, samples, ends: [-ends[0], ends[1]], is_sparse }
     }
 
-    /// Is the sample at `d` one of those within the stretch that the interpolant leaves out?
-    fn passes_over(&self, bend: Option<&Bend>, d: Point) -> bool {
+    /// Is the sample `q`, at `d`, one of those within the stretch that the interpolant leaves out?
+    fn passes_over(&self, bends: &[Option<Bend>], q: u32, d: Point) -> bool {
         let reach = self.ends[1].max(-self.ends[0]);
-        bend.is_none() && dot(d, d) <= reach * reach
+        dot(d, d) <= reach * reach && bends[q as usize].is_none()
     }
 
     /// The largest curvature of a disk that touches at the sample and meets the stretch, on the side of `sign`.
@@ -216,7 +213,7 @@ fn far_curvatures(
         let d = sub(delaunay.point(vertex), s);
         let height = dot(normal, d);
         let (side, through) = (usize::from(height < 0.0), 2.0 * height.abs() / dot(d, d));
-        if through > 0.0 && !near.passes_over(bends[vertex as usize].as_ref(), d) {
+        if through > 0.0 && !near.passes_over(bends, vertex, d) {
             largest[side] = largest[side].max(through);
             others.push(Other { vertex, d, side, through });
         }

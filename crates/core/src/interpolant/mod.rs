@@ -48,7 +48,7 @@ impl Interpolant {
         let stencil = stencil(delaunay, &curve, &scale, progress)?;
         progress.enter(Stage::Interpolate, 5 * delaunay.points().len())?;
         let bends = bends(delaunay, &stencil, &scale, progress)?;
-        let tree = Tree::new(&axis(delaunay, &bends, progress)?, scale.bounds);
+        let tree = Tree::new(axis(delaunay, &bends, progress)?, scale.bounds);
         let places = delaunay.points();
         let mut nearest = vec![(0, 0.0); places.len()];
         let parts = nearest.chunks_mut(GRAIN).zip(places.chunks(GRAIN)).collect();

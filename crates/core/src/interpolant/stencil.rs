@@ -7,10 +7,12 @@ use crate::adjacency::Adjacency;
 use crate::delaunay::Delaunay;
 use crate::edges::Edges;
 use crate::error::Result;
+use crate::parts::GRAIN;
 use crate::point::{Point, cross, dot, sub};
 use crate::progress::Progress;
 use crate::space::bounds::Bounds;
 use crate::trace::trace_edges;
+use rayon::prelude::*;
 use std::borrow::Cow;
 
 /// The error of a curvature, as a part of one over the extent, that rounding may cause.
@@ -23,6 +25,8 @@ const FIT: f64 = 1e-2;
 const FEWEST: usize = 8;
 
 /// `curve` without the samples that are too close together; itself in most cases.
+///
+/// Only what is joined to an edge that is too short is traced: elsewhere all samples are kept.
 pub fn stencil<'a>(
     delaunay: &Delaunay,
     curve: &'a Adjacency,
@@ -33,11 +37,15 @@ pub fn stencil<'a>(
         let step = sub(delaunay.point(q), delaunay.point(p));
         dot(step, step) < scale.spacing * scale.spacing
     };
-    if !curve.edges().iter().any(short) {
+    let short: Edges =
+        curve.edges().par_iter().with_min_len(GRAIN).copied().filter(short).collect();
+    if short.is_empty() {
         return Ok(Cow::Borrowed(curve));
     }
-    let traced = trace_edges(delaunay.points(), curve.edges(), progress)?;
-    let mut edges = Edges::new();
+    // What is joined to a short edge; there is little of it.
+    let near = joined(curve, short, progress)?;
+    let (near, mut edges) = curve.edges().iter().partition::<Edges, _>(|[p, _]| near[*p as usize]);
+    let traced = trace_edges(delaunay.points(), near, progress)?;
     for (ends, &closed) in traced.offsets.windows(2).zip(&traced.closed) {
         let whole = &traced.indices[ends[0]..ends[1]];
         let kept = scale.kept(delaunay, whole, closed);
@@ -47,6 +55,19 @@ pub fn stencil<'a>(
         }
     }
     Ok(Cow::Owned(Adjacency::of_vertices(&[edges], delaunay.points().len())))
+}
+
+/// For each vertex: does a path along `curve` lead from it to one of `edges`?
+fn joined(curve: &Adjacency, edges: Edges, progress: &Progress) -> Result<Vec<bool>> {
+    let mut is_joined = vec![false; curve.vertices()];
+    let mut ahead = edges.into_flattened();
+    while let Some(v) = ahead.pop() {
+        if !std::mem::replace(&mut is_joined[v as usize], true) {
+            progress.advance(0)?;
+            ahead.extend(curve.of(v).iter().map(|&(next, _)| next));
+        }
+    }
+    Ok(is_joined)
 }
 
 /// How closely rounding lets one look.
@@ -101,5 +122,36 @@ impl Scale {
         a >= self.spacing
             || cross(u, v).abs() > TURN * a * b + 8.0 * self.rounding * (a + b)
             || dot(u, v) < 0.0 && a.min(b) > 8.0 * self.rounding
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_no_short_edge_is_joined_to_keeps_all_its_samples() {
+        let (progress, count) = (Progress::default(), 400);
+        let circle = |x: f64, angle: f64| [x + angle.cos(), angle.sin()];
+        let angle = |k: usize| std::f64::consts::TAU * k as f64 / count as f64;
+        let sparse = (0..count).map(|k| circle(0.0, angle(k)));
+        // On the second circle three samples lie between two, closer than rounding lets one see.
+        let dense = (0..count).map(|k| circle(3.0, angle(k)));
+        let close = (1..4).map(|k| circle(3.0, angle(7) + 1e-9 * f64::from(k)));
+        let points: Vec<Point> = sparse.chain(dense).chain(close).collect();
+        let delaunay = Delaunay::new(&points, &progress).expect("points");
+        let edges = crate::methods::crust(&delaunay, &progress).expect("no one cancels");
+        let curve = Adjacency::new(&delaunay, &edges).expect("memory");
+        assert_eq!(curve.edges().len(), points.len());
+        let scale = Scale::of(delaunay.points());
+        let stencil = stencil(&delaunay, &curve, &scale, &progress).expect("no one cancels");
+        for (v, &row) in delaunay.rows().iter().enumerate() {
+            let (own, before) = (stencil.of(v as u32), curve.of(v as u32));
+            match row as usize {
+                0..400 => assert!(own.iter().map(|end| end.0).eq(before.iter().map(|end| end.0))),
+                _ => assert!(own.is_empty() || own.len() == 2),
+            }
+        }
+        assert_eq!(stencil.edges().len(), points.len() - 3);
     }
 }

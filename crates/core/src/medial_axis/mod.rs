@@ -5,6 +5,7 @@
 
 mod circles;
 mod far;
+mod flips;
 
 use crate::adjacency::{Adjacency, vertices_of_rows};
 use crate::delaunay::{Delaunay, NONE};
@@ -12,13 +13,13 @@ use crate::error::Result;
 use crate::exact::predicates::in_circle;
 use crate::forest::Forest;
 use crate::memory;
-use crate::parts::{all, each, in_parts, map, split};
+use crate::parts::{each, in_parts, map, split};
 use crate::point::{Point, sub};
 use crate::progress::{PACE, Progress, Stage};
 use crate::rows::OfVertices;
-use crate::trace::trace_edges;
 use circles::Circles;
 pub use far::MedialAxis;
+use flips::flipping;
 use std::cell::OnceCell;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -56,7 +57,7 @@ pub fn medial_axis(
     })?;
     let rays = rays(&mesh, &centers);
     drop((centers, wedges, marks));
-    let axis = collect(delaunay, found, &rays, circles, progress)?;
+    let axis = collect(delaunay, found, rays, circles, progress)?;
     Ok(far::at_infinity(axis, place_of(delaunay)))
 }
 
@@ -129,32 +130,6 @@ fn sides(triangles: &[u32], k: usize) -> Option<[u32; 2]> {
     let right = if k > 0 { k - 1 } else { triangles.len() - 1 };
     let sides = [triangles[k], triangles[right]];
     (!sides.contains(&NONE)).then_some(sides)
-}
-
-/// For each edge: does crossing it lead from the inside of a ring to its outside?
-///
-/// Open curves do not separate. Neither do rings with an edge that is not in the triangulation.
-fn flipping(delaunay: &Delaunay, curve: &Adjacency, progress: &Progress) -> Result<Vec<bool>> {
-    progress.enter(Stage::Trace, delaunay.points().len())?;
-    let simple = |v: usize| match curve.of(v as u32) {
-        [] => true,
-        [(a, _), (b, _)] => [a, b].iter().all(|&&end| delaunay.position(v as u32, end).is_some()),
-        _ => false,
-    };
-    if all(delaunay.points().len(), progress, simple)? {
-        return Ok(vec![true; curve.edges().len()]);
-    }
-    let traced = trace_edges(delaunay.points(), curve.edges(), progress)?;
-    let mut flips = vec![false; curve.edges().len()];
-    for (ends, _) in traced.offsets.windows(2).zip(&traced.closed).filter(|&(_, &closed)| closed) {
-        let ring = &traced.indices[ends[0]..ends[1]];
-        let sides = || ring.iter().copied().zip(ring.iter().copied().cycle().skip(1));
-        if sides().all(|(p, q)| delaunay.position(p, q).is_some()) {
-            let numbers = sides().filter_map(|(p, q)| curve.edge(p, q));
-            numbers.for_each(|number| flips[number as usize] = true);
-        }
-    }
-    Ok(flips)
 }
 
 /// The marks of all half-edges; `flips` tells which edges of the curves separate inside and outside.
@@ -269,19 +244,13 @@ fn append(mesh: &Mesh<'_>, p: u32, inner: bool, centers: &[u32], found: &mut Vec
 fn collect(
     delaunay: &Delaunay,
     mut found: OfVertices<Found>,
-    rays: &[Ray],
+    mut rays: Vec<Ray>,
     circles: Circles,
     progress: &Progress,
 ) -> Result<MedialAxis> {
-    let (used, number) = numbers(circles.radii.len(), &found, rays);
+    let used = used(circles.radii.len(), &found, &rays);
     progress.advance(0)?;
-    each(found.parts_mut(), |_, part| {
-        for (_, sides, _) in part {
-            *sides = sides.map(|t| number[t as usize]);
-        }
-    });
-    let ray_origins = rays.iter().map(|ray| number[ray.origin as usize]).collect();
-    drop(number);
+    renumber(&mut found, &mut rays, &used);
     let (vertices, radii) = circles.used(&used, delaunay.scale());
     let count = found.parts().iter().map(|part| part.len()).sum();
     let (mut edges, mut samples) = (vec![[0; 2]; count], vec![[0; 2]; count]);
@@ -306,7 +275,7 @@ fn collect(
         edges,
         samples,
         inner,
-        ray_origins,
+        ray_origins: rays.iter().map(|ray| ray.origin).collect(),
         ray_directions: rays.iter().map(|ray| outward(delaunay, ray.side)).collect(),
         ray_samples: rays.iter().map(|ray| ray.samples).collect(),
     })
@@ -338,8 +307,8 @@ fn rays(mesh: &Mesh<'_>, centers: &[u32]) -> Vec<Ray> {
     rays
 }
 
-/// Which triangles' centers are vertices of the axis, and for each triangle its number among them.
-fn numbers(triangles: usize, found: &OfVertices<Found>, rays: &[Ray]) -> (Vec<bool>, Vec<u32>) {
+/// Which triangles' centers are vertices of the axis?
+fn used(triangles: usize, found: &OfVertices<Found>, rays: &[Ray]) -> Vec<bool> {
     let mut is_used = Vec::new();
     is_used.resize_with(triangles, || AtomicBool::new(false));
     let mark = |t: u32| is_used[t as usize].store(true, Relaxed);
@@ -352,14 +321,28 @@ fn numbers(triangles: usize, found: &OfVertices<Found>, rays: &[Ray]) -> (Vec<bo
     for ray in rays {
         mark(ray.origin);
     }
-    let used: Vec<bool> = is_used.into_iter().map(AtomicBool::into_inner).collect();
+    is_used.into_iter().map(AtomicBool::into_inner).collect()
+}
+
+/// Number the triangles that are `used`; without ties all are.
+fn renumber(found: &mut OfVertices<Found>, rays: &mut [Ray], used: &[bool]) {
+    if used.iter().all(|&is_used| is_used) {
+        return;
+    }
     let mut before = 0;
     let number = |&is_used: &bool| {
         before += u32::from(is_used);
         before - u32::from(is_used)
     };
-    let numbers = used.iter().map(number).collect();
-    (used, numbers)
+    let number: Vec<u32> = used.iter().map(number).collect();
+    each(found.parts_mut(), |_, part| {
+        for (_, sides, _) in part {
+            *sides = sides.map(|t| number[t as usize]);
+        }
+    });
+    for ray in rays {
+        ray.origin = number[ray.origin as usize];
+    }
 }
 
 /// The unit normal to the right of p → q.

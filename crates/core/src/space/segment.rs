@@ -6,6 +6,8 @@ use crate::point::{Point, cross, dot, length, sub};
 const FLAT: f64 = 5e-4;
 /// Up to this length, as a part of the radius.
 const LONG: f64 = 0.5;
+/// Starts farther apart than this part of the radius belong to segments too far apart to be joined, or nearly so.
+const FAR: f64 = 2.0 * LONG;
 /// How many of the last segments another may lengthen: samples near each other belong to more than one stretch of the axis.
 const OPEN: usize = 3;
 
@@ -50,7 +52,11 @@ impl Segment {
     /// The one segment that stands for both, if they are in line and leave no gap.
     #[must_use]
     pub fn joined(&self, other: &Self) -> Option<Self> {
-        // What is long is told first: nearly all pairs are far apart, and the gap takes three roots.
+        // What is far apart is told first, as nearly all pairs are; then what is long: the gap takes three roots.
+        let between = sub(other.ends[0], self.ends[0]);
+        if dot(between, between) > (FAR * self.radius.min(other.radius)).powi(2) {
+            return None;
+        }
         let ends = self.span(other);
         if self.is_long(other, ends) {
             return None;

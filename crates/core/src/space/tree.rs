@@ -1,5 +1,6 @@
 //! Segments sorted along a Hilbert curve, with boxes around them, to find the nearest.
 
+use crate::parts::{each, scatter, split};
 use crate::point::{Point, dot, sub};
 use crate::space::bounds::Bounds;
 use crate::space::boxes::Boxes;
@@ -14,6 +15,9 @@ const MIDDLE: usize = 2;
 const GAIN: f64 = 1e-3;
 /// Segments that one task joins at a time.
 const GRAIN: usize = 1 << 14;
+/// Segments that are sorted at a time, about, and the most such buckets.
+const BUCKET: usize = 1 << 9;
+const MOST_BUCKETS: usize = 1 << 12;
 
 /// A segment, made ready for distances.
 #[derive(Debug, Clone, Copy)]
@@ -25,8 +29,7 @@ struct Line {
 }
 
 impl Line {
-    fn new(segment: &Segment) -> Self {
-        let [start, end] = segment.ends;
+    fn new([start, end]: [Point; 2]) -> Self {
         let along = sub(end, start);
         let square = dot(along, along);
         Self { start, along, inverse: if square.is_normal() { 1.0 / square } else { 0.0 } }
@@ -51,25 +54,33 @@ pub struct Tree {
 }
 
 impl Tree {
-    /// A tree of `segments`, joined where they are in line. Queries are within `bounds`.
+    /// A tree of the segments in `parts`, joined where they are in line. Queries are within `bounds`.
     #[must_use]
-    pub fn new(segments: &[Segment], bounds: Bounds) -> Self {
-        Self::of(&joined(segments, &order(segments, bounds)), GAIN)
+    pub fn new(parts: Vec<Vec<Segment>>, bounds: Bounds) -> Self {
+        let joined = joined(&parts, &order(&parts, bounds));
+        drop(parts);
+        // Zeros come without being written, so that each task is the first to touch what it fills.
+        let mut ends = vec![[[0.0; 2]; 2]; joined.iter().map(Vec::len).sum()];
+        let targets = split(&mut ends, joined.iter().map(Vec::len));
+        each(targets.into_iter().zip(joined).collect(), |_, (target, part)| {
+            target.iter_mut().zip(part).for_each(|(ends, segment)| *ends = segment.ends);
+        });
+        Self::of(&ends, GAIN)
     }
 
     /// A tree of the segments between `ends`, perhaps points, as they are: distances are exact but for rounding.
     #[must_use]
     pub fn exact(ends: &[[Point; 2]]) -> Self {
         let bounds = Bounds::of(ends.as_flattened());
-        let segments: Vec<Segment> = ends.iter().map(|&ends| Segment::new(ends, 0.0)).collect();
-        let ordered: Vec<Segment> =
-            order(&segments, bounds).into_iter().map(|k| segments[k as usize]).collect();
+        let parts = [ends.iter().map(|&ends| Segment::new(ends, 0.0)).collect()];
+        let order = order(&parts, bounds);
+        let ordered: Vec<[Point; 2]> = order.into_iter().map(|key| at(&parts, key).ends).collect();
         Self::of(&ordered, 0.0)
     }
 
-    fn of(segments: &[Segment], gain: f64) -> Self {
-        let boxes = Boxes::new(segments, |segment| Bounds::of(&segment.ends));
-        Self { lines: segments.par_iter().map(Line::new).collect(), boxes, gain }
+    fn of(ends: &[[Point; 2]], gain: f64) -> Self {
+        let boxes = Boxes::new(ends, |ends| Bounds::of(ends));
+        Self { lines: ends.par_iter().map(|&ends| Line::new(ends)).collect(), boxes, gain }
     }
 
     /// The distance from each place to the nearest segment, infinite if there is none; places as for `nearest`.
@@ -190,24 +201,39 @@ impl Search<'_> {
     }
 }
 
-/// The numbers of the segments along a Hilbert curve, which leaves no gaps as a Z-order curve does: its boxes overlap half as often.
+/// Where a segment is along the curve, its part, and its number there.
+type Key = (u32, u32, u32);
+
+/// The segment that a key stands for.
+fn at(parts: &[Vec<Segment>], (_, part, number): Key) -> Segment {
+    parts[part as usize][number as usize]
+}
+
+/// The segments along a Hilbert curve, which leaves no gaps as a Z-order curve does: its boxes overlap half as often.
 ///
 /// Its cells cover twice the extent of the queries: some centers are so far away that they would leave no cells for the rest.
-fn order(segments: &[Segment], bounds: Bounds) -> Vec<u32> {
+fn order(parts: &[Vec<Segment>], bounds: Bounds) -> Vec<Key> {
     let ([left, bottom], extent) = (bounds.low, bounds.extent());
     let (x, y, cells) =
         (left - extent / 2.0, bottom - extent / 2.0, f64::from(u16::MAX) / (2.0 * extent));
     // The conversion saturates, so what is farther away is in the outermost cells.
     let code = |[px, py]: Point| hilbert(((px - x) * cells) as u16, ((py - y) * cells) as u16);
-    let numbered = segments.par_iter().enumerate();
-    let mut keys: Vec<u64> =
-        numbered.map(|(k, segment)| code(segment.middle()) << 32 | k as u64).collect();
-    keys.par_sort_unstable();
-    keys.into_par_iter().map(|key| key as u32).collect()
+    let keys = |(part, segments): (usize, &Vec<Segment>)| -> Vec<Key> {
+        let key = |(k, segment): (usize, &Segment)| (code(segment.middle()), part as u32, k as u32);
+        segments.iter().enumerate().map(key).collect()
+    };
+    let keys: Vec<Vec<Key>> = parts.par_iter().enumerate().map(keys).collect();
+    let count: usize = parts.iter().map(Vec::len).sum();
+    let buckets = (count / BUCKET).next_power_of_two().min(MOST_BUCKETS);
+    let bucket = |key: &Key| ((u64::from(key.0) * buckets as u64) >> u32::BITS) as usize;
+    let (mut keys, counts) = scatter(&keys, (0, 0, 0), buckets, bucket);
+    // Stable: where codes are equal, segments stay in their order.
+    each(split(&mut keys, counts), |_, bucket| bucket.par_sort_by_key(|key| key.0));
+    keys
 }
 
 /// The place of cell (x, y) along the Hilbert curve.
-fn hilbert(x: u16, y: u16) -> u64 {
+fn hilbert(x: u16, y: u16) -> u32 {
     let (mut x, mut y, mut place) = (u32::from(x), u32::from(y), 0);
     for bit in (0..u16::BITS).rev() {
         let (right, top) = (x >> bit & 1, y >> bit & 1);
@@ -219,25 +245,25 @@ fn hilbert(x: u16, y: u16) -> u64 {
         let swap = (x ^ y) & lower;
         (x, y) = (x ^ swap, y ^ swap);
     }
-    u64::from(place)
+    place
 }
 
 /// The segments in `order`, joined where the next is in line with one of the last.
-fn joined(segments: &[Segment], order: &[u32]) -> Vec<Segment> {
-    let part = |order: &[u32]| {
+fn joined(parts: &[Vec<Segment>], order: &[Key]) -> Vec<Vec<Segment>> {
+    let part = |order: &[Key]| {
         let mut kept = Vec::with_capacity(order.len());
         let mut near = Vec::with_capacity(RUN);
         // Runs are read at once, so that the processor waits for many places of memory at a time.
         for run in order.chunks(RUN) {
             near.clear();
-            near.extend(run.iter().map(|&k| segments[k as usize]));
+            near.extend(run.iter().map(|&key| at(parts, key)));
             for &next in &near {
                 push(&mut kept, next, Segment::joined);
             }
         }
         kept
     };
-    order.par_chunks(GRAIN).map(part).collect::<Vec<_>>().concat()
+    order.par_chunks(GRAIN).map(part).collect()
 }
 
 #[cfg(test)]
@@ -265,11 +291,11 @@ mod tests {
     fn the_nearest_segment_is_as_near_as_any() {
         for count in [1, 3, 60, 700] {
             let segments = chains(count);
-            let tree = Tree::new(&segments, UNIT);
+            let tree = Tree::new(segments.chunks(100).map(<[_]>::to_vec).collect(), UNIT);
             let places: Vec<Point> =
                 (0..400).map(|k| [f64::from(k % 20) / 19.0, f64::from(k / 20) / 19.0]).collect();
             for (&place, (segment, distance)) in places.iter().zip(tree.nearest(&places)) {
-                let squares = segments.iter().map(|segment| Line::new(segment).square(place));
+                let squares = segments.iter().map(|segment| Line::new(segment.ends).square(place));
                 let nearest = squares.fold(f64::INFINITY, f64::min).sqrt();
                 assert!((distance - nearest).abs() <= 1e-3 * (nearest + 0.05));
                 assert_eq!(distance, tree.distance_to(segment, place));
@@ -282,7 +308,7 @@ mod tests {
         let ends: Vec<_> = chains(60).iter().map(|segment| segment.ends).collect();
         let places: Vec<Point> = (0..99).map(|k| [f64::from(k) / 99.0, 0.3]).collect();
         let nearest = |&p: &Point| {
-            let squares = ends.iter().map(|&ends| Line::new(&Segment::new(ends, 0.0)).square(p));
+            let squares = ends.iter().map(|&ends| Line::new(ends).square(p));
             squares.fold(f64::INFINITY, f64::min).sqrt()
         };
         let expected: Vec<f64> = places.iter().map(nearest).collect();
@@ -292,13 +318,13 @@ mod tests {
 
     #[test]
     fn chains_are_joined() {
-        let tree = Tree::new(&chains(700), UNIT);
+        let tree = Tree::new(vec![chains(700)], UNIT);
         assert!(tree.lines.len() < 4 * 700);
     }
 
     #[test]
     fn no_segments_are_infinitely_far() {
-        let tree = Tree::new(&[], Bounds::EMPTY);
+        let tree = Tree::new(vec![], Bounds::EMPTY);
         assert_eq!(tree.nearest(&[[1.0, 2.0]]), [(0, f64::INFINITY)]);
         assert_eq!(tree.distance_to(0, [1.0, 2.0]), f64::INFINITY);
     }
