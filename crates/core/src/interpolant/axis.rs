@@ -27,6 +27,8 @@ pub fn axis(
         let vertices = vertices.start as u32..vertices.end as u32;
         let mut segments = Vec::with_capacity(2 * vertices.len());
         Part::new(delaunay, bends, vertices).collect(&mut segments);
+        // What is not used is given back at once: the part stays.
+        segments.shrink_to_fit();
         segments
     })
 }

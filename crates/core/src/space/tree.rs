@@ -261,6 +261,7 @@ fn joined(parts: &[Vec<Segment>], order: &[Key]) -> Vec<Vec<Segment>> {
                 push(&mut kept, next, Segment::joined);
             }
         }
+        kept.shrink_to_fit();
         kept
     };
     order.par_chunks(GRAIN).map(part).collect()
