@@ -160,7 +160,7 @@ pub fn sort_by<T: Send>(
     } else {
         // Where all is equal, a sort is done soon.
         items.par_sort_unstable_by(|a, b| {
-            if progress.is_cancelled() { Ordering::Equal } else { compare(a, b) }
+            if progress.goes_on() { compare(a, b) } else { Ordering::Equal }
         });
     }
     progress.advance(0)

@@ -13,6 +13,9 @@ use rayon::prelude::*;
 /// Vertices that one task takes at a time.
 pub const GRAIN: usize = 1 << 10;
 
+/// Vertices between two looks at whether to stop, where one after another takes little.
+const SELDOM: usize = 1 << 16;
+
 /// The candidate edges, seen from their vertices.
 #[derive(Debug, Default)]
 pub struct Candidates {
@@ -29,6 +32,8 @@ pub struct Candidates {
     pub sights: Vec<f32>,
     /// Is the edge to be in the answer, whatever it costs? Empty if none is.
     pub kept: Vec<bool>,
+    /// Whether to stop: what is made after that is of no use, and not whole.
+    progress: Progress,
 }
 
 impl Candidates {
@@ -43,11 +48,16 @@ impl Candidates {
         let vertices = delaunay.points().len();
         let offsets = offsets(delaunay, &tied)?;
         let count = offsets[vertices] as usize;
-        let mut own =
-            Self { offsets, ends: vec![0; count], sights: vec![0.0; count], ..Self::default() };
+        let mut own = Self {
+            offsets,
+            ends: vec![0; count],
+            sights: vec![0.0; count],
+            progress: progress.quiet(),
+            ..Self::default()
+        };
         own.fill(delaunay, &tied);
         progress.advance(0)?;
-        own.link();
+        own.link()?;
         if !keep.is_empty() {
             own.kept = own.map(false, |v, kept| {
                 for (kept, &end) in kept.iter_mut().zip(own.neighbors(v)) {
@@ -59,9 +69,13 @@ impl Candidates {
     }
 
     /// Keep the half-edges, twins alike, that are to be kept, with their `values`; then see which form pairs.
-    pub fn retain(&mut self, values: &mut Vec<f32>, keep: &[bool]) {
+    ///
+    /// # Errors
+    /// The call is cancelled.
+    pub fn retain(&mut self, values: &mut Vec<f32>, keep: &[bool]) -> Result<()> {
         let mut place = 0;
         for v in 0..self.vertices() {
+            self.look(v)?;
             let range = self.from(v);
             self.offsets[v] = place as u32;
             for e in range.filter(|&e| keep[e]) {
@@ -84,8 +98,16 @@ impl Candidates {
         }
         self.ends.shrink_to_fit();
         self.kept.truncate(place);
-        self.link();
-        self.limit_pairs(values);
+        self.link()?;
+        self.limit_pairs(values)
+    }
+
+    /// Look whether to stop, at one of very many vertices.
+    ///
+    /// # Errors
+    /// The call is cancelled.
+    pub fn look(&self, v: usize) -> Result<()> {
+        if v.is_multiple_of(SELDOM) { self.progress.advance(0) } else { Ok(()) }
     }
 
     /// The number of vertices.
@@ -153,7 +175,7 @@ impl Candidates {
     pub fn map<T: Copy + Send>(&self, empty: T, write: impl Fn(usize, &mut [T]) + Sync) -> Vec<T> {
         let mut values = vec![empty; self.ends.len()];
         let parts = split(&mut values, self.grains());
-        each(parts, |(k, mut part)| {
+        self.each(parts, |(k, mut part)| {
             for v in k * GRAIN..((k + 1) * GRAIN).min(self.vertices()) {
                 let (own, rest) = part.split_at_mut(self.from(v).len());
                 write(v, own);
@@ -163,11 +185,31 @@ impl Candidates {
         values
     }
 
+    /// One value for each vertex.
+    pub fn by_vertex<T: Copy + Default + Send>(&self, value: impl Fn(usize) -> T + Sync) -> Vec<T> {
+        let mut values = vec![T::default(); self.vertices()];
+        self.each(values.chunks_mut(GRAIN), |(k, part)| {
+            for (i, own) in part.iter_mut().enumerate() {
+                *own = value(k * GRAIN + i);
+            }
+        });
+        values
+    }
+
+    /// Do `work` on numbered parts until the call is cancelled, as `each` does.
+    pub fn each<T: Send>(
+        &self,
+        parts: impl IntoIterator<Item = T>,
+        work: impl Fn((usize, T)) + Sync + Send,
+    ) {
+        each(parts, &self.progress, work);
+    }
+
     fn fill(&mut self, delaunay: &Delaunay, tied: &[(u32, Edge)]) {
         let lengths: Vec<usize> = self.grains().collect();
         let ends = split(&mut self.ends, lengths.iter().copied());
         let sights = split(&mut self.sights, lengths);
-        each(ends.into_iter().zip(sights), |(k, (ends, sights))| {
+        each(ends.into_iter().zip(sights), &self.progress, |(k, (ends, sights))| {
             let last = delaunay.points().len();
             let mut place = 0;
             let mut star = Vec::new();
@@ -186,26 +228,32 @@ impl Candidates {
     }
 
     /// Find the twins; what is known of an edge at its smaller end is told to the larger.
-    fn link(&mut self) {
+    fn link(&mut self) -> Result<()> {
         self.twins = vec![0; self.ends.len()];
         let mut next: Vec<u32> = self.offsets.clone();
         // Ends ascend, so each vertex is met by its neighbors in the order of its own half-edges.
-        for (e, &end) in self.ends.iter().enumerate() {
-            let twin = next[end as usize];
-            next[end as usize] += 1;
-            self.twins[e] = twin;
-            if (twin as usize) < e {
-                self.sights[e] = self.sights[twin as usize];
+        for v in 0..self.vertices() {
+            self.look(v)?;
+            for e in self.from(v) {
+                let slot = &mut next[self.ends[e] as usize];
+                let twin = *slot;
+                *slot += 1;
+                self.twins[e] = twin;
+                if (twin as usize) < e {
+                    self.sights[e] = self.sights[twin as usize];
+                }
             }
         }
+        Ok(())
     }
 
     /// Let only the half-edges of least value at hubs form pairs, and put them first.
     ///
     /// Those of the same value as the first one too many are out as well, so that the order of ties does not matter.
-    fn limit_pairs(&mut self, values: &mut [f32]) {
+    fn limit_pairs(&mut self, values: &mut [f32]) -> Result<()> {
         self.paired = vec![0; self.vertices()];
         for v in 0..self.vertices() {
+            self.look(v)?;
             let range = self.from(v);
             if range.len() <= MOST_PAIRED {
                 self.paired[v] = range.len() as u8;
@@ -226,6 +274,7 @@ impl Candidates {
             }
             self.paired[v] = (place - range.start) as u8;
         }
+        Ok(())
     }
 
     /// Exchange two half-edges of one vertex.
@@ -243,28 +292,23 @@ impl Candidates {
     }
 }
 
-/// Do `work` on numbered parts, in parallel if there are several: small calls need not wake other threads.
-pub fn each<T: Send>(parts: impl IntoIterator<Item = T>, work: impl Fn((usize, T)) + Sync + Send) {
+/// Do `work` on numbered parts until the call is cancelled, in parallel if there are several: small calls need not wake other threads.
+fn each<T: Send>(
+    parts: impl IntoIterator<Item = T>,
+    progress: &Progress,
+    work: impl Fn((usize, T)) + Sync + Send,
+) {
     let mut parts: Vec<(usize, T)> = parts.into_iter().enumerate().collect();
+    let work = |part| {
+        if progress.goes_on() {
+            work(part);
+        }
+    };
     match parts.len() {
         0 => (),
         1 => work(parts.swap_remove(0)),
         _ => parts.into_par_iter().for_each(work),
     }
-}
-
-/// One value for each of `count` vertices.
-pub fn by_vertex<T: Copy + Default + Send>(
-    count: usize,
-    value: impl Fn(usize) -> T + Sync,
-) -> Vec<T> {
-    let mut values = vec![T::default(); count];
-    each(values.chunks_mut(GRAIN), |(k, part)| {
-        for (i, own) in part.iter_mut().enumerate() {
-            *own = value(k * GRAIN + i);
-        }
-    });
-    values
 }
 
 /// The diagonals of cocircular points and the edges to keep that are not in the triangulation, from both of their ends,

@@ -1,6 +1,6 @@
 //! The costs of a set of edges: of each edge, of each point that it passes, ends at, or leaves out.
 
-use super::candidates::{Candidates, by_vertex};
+use super::candidates::Candidates;
 use super::constants::Constants;
 use super::geometry::Spacing;
 use super::roughness::Roughness;
@@ -30,7 +30,7 @@ impl Costs {
         constants: &Constants,
     ) -> Self {
         let vertices = candidates.vertices();
-        let weights = by_vertex(vertices, |v| rough.step_weight(v, constants) as f32);
+        let weights = candidates.by_vertex(|v| rough.step_weight(v, constants) as f32);
         let edges = candidates.map(0.0, |v, own| {
             for (own, e) in own.iter_mut().zip(candidates.from(v)) {
                 let ends = [v, candidates.ends[e] as usize];
@@ -42,12 +42,11 @@ impl Costs {
         });
         Self {
             edges,
-            turns: by_vertex(vertices, |v| {
-                (constants.turn * rough.turn_weight(v, constants)) as f32
-            }),
+            turns: candidates
+                .by_vertex(|v| (constants.turn * rough.turn_weight(v, constants)) as f32),
             steps: weights.into_iter().map(|weight| constants.step as f32 * weight).collect(),
             ends: vec![1.0; vertices],
-            alone: by_vertex(vertices, |v| {
+            alone: candidates.by_vertex(|v| {
                 (alone(spacing.crowding[v], constants) * rough.alone_weight(v, constants)) as f32
             }),
         }

@@ -24,7 +24,7 @@ const NONE: u32 = u32::MAX;
 /// No change leads there.
 pub fn reach(found: &Found<'_>, wanted: usize, selection: &mut Selection) -> Result<()> {
     loop {
-        let curves = components(&found.factors(), selection);
+        let curves = components(&found.factors(), selection)?;
         let count = curves.len();
         if count == wanted {
             return Ok(());

@@ -1,6 +1,6 @@
 //! From beliefs to edges: the surest first, at most two a point.
 
-use super::candidates::{Candidates, by_vertex};
+use super::candidates::Candidates;
 use super::selection::Selection;
 use rayon::prelude::*;
 
@@ -15,7 +15,7 @@ pub fn decode(
     most: impl Fn(usize) -> u8 + Sync,
 ) -> Selection {
     // Where no more are believed in than there is room for, all are in, whatever their order.
-    let has_room = by_vertex(candidates.vertices(), |v| {
+    let has_room = candidates.by_vertex(|v| {
         let believed = candidates.from(v).filter(|&e| beliefs[e] < 0.0).count();
         believed <= usize::from(most(v))
     });

@@ -1,13 +1,12 @@
 //! Along a curve points grow in number like the radius, over an area like its square: the dimension tells clouds from curves.
 
-use super::candidates::{Candidates, by_vertex};
+use super::candidates::Candidates;
 use super::found::Found;
 use super::rings::ring_median;
 use crate::adjacency::Adjacency;
 use crate::delaunay::Delaunay;
 use crate::parts::split;
 use crate::point::{length, sub};
-use rayon::prelude::*;
 use std::collections::HashSet;
 
 /// Points that one task takes at a time.
@@ -27,7 +26,7 @@ impl Steps {
     /// Those of curves.
     #[must_use]
     pub fn new(found: &Found<'_>, curves: &Adjacency) -> Self {
-        let mut around = by_vertex(found.candidates.vertices(), |v| {
+        let mut around = found.candidates.by_vertex(|v| {
             let ends = curves.of(v as u32);
             let sum: f64 =
                 ends.iter().map(|&(end, _)| found.spacing.distance(v, end as usize)).sum();
@@ -46,8 +45,7 @@ pub fn excess_dimension(delaunay: &Delaunay, candidates: &Candidates, steps: &St
     let vertices = candidates.vertices();
     let mut raw = vec![0.0; vertices];
     let grains = (0..vertices).step_by(GRAIN).map(|first| GRAIN.min(vertices - first));
-    let parts: Vec<(usize, &mut [f64])> = split(&mut raw, grains).into_iter().enumerate().collect();
-    parts.into_par_iter().for_each(|(k, part)| {
+    candidates.each(split(&mut raw, grains), |(k, part)| {
         let mut seen = HashSet::new();
         for (i, own) in part.iter_mut().enumerate() {
             let v = k * GRAIN + i;
@@ -59,7 +57,7 @@ pub fn excess_dimension(delaunay: &Delaunay, candidates: &Candidates, steps: &St
     for _ in 0..2 {
         smooth = ring_median(candidates, &smooth, |_, _| true);
     }
-    by_vertex(vertices, |v| smooth[v])
+    candidates.by_vertex(|v| smooth[v])
 }
 
 /// How many points the disks around `v` hold, itself included; an unknown step tells nothing.

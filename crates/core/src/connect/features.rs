@@ -1,6 +1,6 @@
 //! What of an edge tells how sure it is: how much it was wanted, by what it was rivaled, and how the points lie around.
 
-use super::candidates::{Candidates, by_vertex};
+use super::candidates::Candidates;
 use super::dimension::{Steps, excess_dimension};
 use super::found::Found;
 use crate::adjacency::Adjacency;
@@ -58,7 +58,7 @@ impl<'a> Surroundings<'a> {
         progress.advance(0)?;
         let dimension = excess_dimension(delaunay, candidates, &steps);
         progress.advance(0)?;
-        let rivals = by_vertex(candidates.vertices(), |v| {
+        let rivals = candidates.by_vertex(|v| {
             let out = candidates.from(v).filter(|&e| !found.selection.chosen[e]);
             out.map(|e| f64::from(found.beliefs[e])).fold(SURE, f64::min).max(-SURE)
         });
@@ -155,7 +155,7 @@ fn beside(
     progress: &Progress,
 ) -> Result<Vec<f64>> {
     let distance = |v: u32, end: u32| found.spacing.distance(v as usize, end as usize);
-    let mut beside = by_vertex(found.candidates.vertices(), |v| {
+    let mut beside = found.candidates.by_vertex(|v| {
         let near = delaunay.star(v as u32).neighbors.iter();
         let beside = near.filter(|&&end| curves.edge(v as u32, end).is_none());
         beside.map(|&end| distance(v as u32, end)).fold(f64::INFINITY, f64::min)

@@ -59,12 +59,13 @@ pub fn converge<'a>(
     progress.advance(0)?;
     let hope = hope(&candidates, &spacing, &known, constants);
     progress.advance(0)?;
-    candidates.retain(&mut spacing.lengths, &hope);
+    candidates.retain(&mut spacing.lengths, &hope)?;
     progress.advance(0)?;
     for &end in &known.ends {
         candidates.paired[end as usize] = 0;
     }
     let turns = Turns::new(delaunay, &candidates);
+    progress.advance(0)?;
     let mut sent = vec![0.0; candidates.ends.len()];
     let mut round = |sweeps: usize, rough: &Roughness| {
         let mut costs = Costs::new(&candidates, &spacing, rough, constants);
@@ -76,6 +77,7 @@ pub fn converge<'a>(
         let beliefs = factors.beliefs(&sent);
         progress.advance(0)?;
         let selection = decode(&candidates, &beliefs, |v| known.most(v));
+        progress.advance(0)?;
         Ok((costs, beliefs, selection))
     };
     let (_, _, first) = round(SWEEPS[0], &Roughness::default())?;

@@ -1,7 +1,7 @@
 //! Gaps: edges much longer than the steps of the curve around them, where these are much alike.
 
 use super::approximation::log;
-use super::candidates::{Candidates, by_vertex};
+use super::candidates::Candidates;
 use super::constants::{Constants, GAP_FEWEST, GAP_RARE, GAP_SPREAD, GAP_SURE, GAP_WINDOW};
 use super::geometry::Spacing;
 use super::selection::Selection;
@@ -30,7 +30,7 @@ impl Gaps {
         selection: &Selection,
         constants: &Constants,
     ) -> Self {
-        let usual = by_vertex(candidates.vertices(), |v| {
+        let usual = candidates.by_vertex(|v| {
             if !may_begin(candidates, spacing, selection, v, constants) {
                 return Usual::none();
             }

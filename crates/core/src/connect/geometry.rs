@@ -3,7 +3,7 @@
 //! Ratios of lengths only, so that the scale does not matter; differences of coordinates only, so that the place does not.
 
 use super::approximation::{HALF_TURN, direction, log};
-use super::candidates::{Candidates, by_vertex};
+use super::candidates::Candidates;
 use super::constants::{Constants, SPACING_RINGS};
 use super::rings::ring_median;
 use crate::delaunay::Delaunay;
@@ -28,9 +28,8 @@ impl<'a> Spacing<'a> {
     /// Measure the candidates. Linear.
     #[must_use]
     pub fn new(delaunay: &'a Delaunay, candidates: &Candidates, constants: &Constants) -> Self {
-        let vertices = candidates.vertices();
         let distance = |v: usize, end: u32| length(vector(delaunay, v, end));
-        let nearest = by_vertex(vertices, |v| {
+        let nearest = candidates.by_vertex(|v| {
             let lengths = candidates.neighbors(v).iter().map(|&end| distance(v, end));
             lengths.fold(f64::INFINITY, f64::min)
         });
@@ -40,12 +39,12 @@ impl<'a> Spacing<'a> {
             }
         });
         let reach = libm::log(constants.reach) as f32;
-        let limits = by_vertex(vertices, |v| reach + second_least(&lengths[candidates.from(v)]));
+        let limits = candidates.by_vertex(|v| reach + second_least(&lengths[candidates.from(v)]));
         let mut spacing = nearest.clone();
         for _ in 0..SPACING_RINGS {
             spacing = ring_median(candidates, &spacing, |v, e| lengths[e] <= limits[v]);
         }
-        let crowding = by_vertex(vertices, |v| {
+        let crowding = candidates.by_vertex(|v| {
             if nearest[v].is_finite() { log(spacing[v] / nearest[v]) as f32 } else { 0.0 }
         });
         let close = -libm::log(constants.close) as f32;

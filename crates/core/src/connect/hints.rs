@@ -1,6 +1,6 @@
 //! What the caller knows of the curves: edges that are in or out, ends, the longest edge, that no point is left out.
 
-use super::candidates::{Candidates, by_vertex};
+use super::candidates::Candidates;
 use super::constants::{CLOSED, CLOSED_ALONE, FORCED};
 use super::costs::Costs;
 use super::geometry::Spacing;
@@ -195,15 +195,15 @@ impl Known {
             }
         }
         if self.closed {
-            costs.ends = by_vertex(candidates.vertices(), |_| CLOSED);
-            costs.alone = by_vertex(candidates.vertices(), |v| costs.alone[v] * CLOSED_ALONE);
+            costs.ends = candidates.by_vertex(|_| CLOSED);
+            costs.alone = candidates.by_vertex(|v| costs.alone[v] * CLOSED_ALONE);
         }
         for &v in &self.ends {
             let v = v as usize;
             (costs.ends[v], costs.alone[v]) = (0.0, FORCED);
         }
         if self.every_point {
-            costs.alone = by_vertex(candidates.vertices(), |_| FORCED);
+            costs.alone = candidates.by_vertex(|_| FORCED);
         }
     }
 }

@@ -3,7 +3,7 @@
 //! The message of a vertex to an edge is what the edge costs at that vertex beyond its absence, all else at its best
 //! (J. Pearl, "Probabilistic Reasoning in Intelligent Systems", 1988). All are sent at once, and damped.
 
-use super::candidates::{Candidates, GRAIN, each};
+use super::candidates::{Candidates, GRAIN};
 use super::constants::{CONVERGED, DAMPING};
 use super::costs::Costs;
 use super::geometry::{Spacing, Turns};
@@ -59,7 +59,7 @@ impl Factors<'_> {
             let share = if k == 0 { 1.0 } else { DAMPING };
             let sweep = Sweep { sent, active: &active, later: &later, share };
             let parts = split(&mut fresh, self.candidates.grains());
-            each(parts, |(k, fresh)| self.write(k, &sweep, fresh));
+            self.candidates.each(parts, |(k, fresh)| self.write(k, &sweep, fresh));
             progress.advance(0)?;
             swap(sent, &mut fresh);
             swap(&mut active, &mut later);

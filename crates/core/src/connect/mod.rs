@@ -86,7 +86,7 @@ fn find<'a>(
     bridge::bridge(delaunay, &found, &crust, constants, &mut selection)?;
     progress.advance(0)?;
     if !found.known.every_point {
-        prune::prune(&found.factors(), constants, &mut selection);
+        prune::prune(&found.factors(), constants, &mut selection)?;
     }
     progress.advance(0)?;
     mend::mend(&found, &mut selection)?;

@@ -7,13 +7,20 @@ use super::selection::Selection;
 use crate::error::{Error, Result};
 
 /// Drop components that look like outliers in a row, if there are outliers at all.
-pub fn prune(factors: &Factors<'_>, constants: &Constants, selection: &mut Selection) {
+///
+/// # Errors
+/// The call is cancelled.
+pub fn prune(
+    factors: &Factors<'_>,
+    constants: &Constants,
+    selection: &mut Selection,
+) -> Result<()> {
     let vertices = factors.candidates.vertices();
     let is_isolated = |&v: &usize| selection.degrees[v] == 0;
     let mut distances: Vec<f64> =
         (0..vertices).filter(is_isolated).map(|v| factors.spacing.nearest[v]).collect();
     if distances.len() < PRUNE_FROM {
-        return;
+        return Ok(());
     }
     let apart = median(&mut distances).unwrap_or_default();
     let (mut few, mut many, mut points) = (Vec::new(), Vec::new(), 0);
@@ -25,12 +32,13 @@ pub fn prune(factors: &Factors<'_>, constants: &Constants, selection: &mut Selec
         } else {
             many.extend_from_slice(own);
         }
-    });
+    })?;
     drop_edges(factors, selection, &few);
     // Where most points would go there is no curve for them to be out of: noise, a cloud.
     if few.len() + many.len() <= points {
         drop_edges(factors, selection, &many);
     }
+    Ok(())
 }
 
 /// Drop the components of fewer vertices than this.
@@ -41,7 +49,7 @@ pub fn drop_small(factors: &Factors<'_>, fewest: usize, selection: &mut Selectio
     if fewest <= 2 {
         return Ok(());
     }
-    for component in components(factors, selection).iter().filter(|own| own.len() < fewest) {
+    for component in components(factors, selection)?.iter().filter(|own| own.len() < fewest) {
         if is_kept(factors, component) {
             let message = format!(
                 "keep and min_points={fewest} contradict each other: a curve with an edge to keep has {} points",
@@ -55,17 +63,25 @@ pub fn drop_small(factors: &Factors<'_>, fewest: usize, selection: &mut Selectio
 }
 
 /// The components that have edges, each as its vertices.
-pub fn components(factors: &Factors<'_>, selection: &Selection) -> Vec<Vec<usize>> {
+///
+/// # Errors
+/// The call is cancelled.
+pub fn components(factors: &Factors<'_>, selection: &Selection) -> Result<Vec<Vec<usize>>> {
     let mut components = Vec::new();
-    each_component(factors, selection, |own| components.push(own.to_vec()));
-    components
+    each_component(factors, selection, |own| components.push(own.to_vec()))?;
+    Ok(components)
 }
 
 /// Show the components that have edges, each as its vertices.
-fn each_component(factors: &Factors<'_>, selection: &Selection, mut show: impl FnMut(&[usize])) {
+fn each_component(
+    factors: &Factors<'_>,
+    selection: &Selection,
+    mut show: impl FnMut(&[usize]),
+) -> Result<()> {
     let mut seen = vec![false; factors.candidates.vertices()];
     let mut found = Vec::new();
     for start in 0..seen.len() {
+        factors.candidates.look(start)?;
         if selection.degrees[start] == 0 || seen[start] {
             continue;
         }
@@ -75,6 +91,7 @@ fn each_component(factors: &Factors<'_>, selection: &Selection, mut show: impl F
         let mut next = 0;
         while let Some(&v) = found.get(next) {
             next += 1;
+            factors.candidates.look(next)?;
             for e in selection.from(factors.candidates, v) {
                 let end = factors.candidates.ends[e] as usize;
                 if !seen[end] {
@@ -85,6 +102,7 @@ fn each_component(factors: &Factors<'_>, selection: &Selection, mut show: impl F
         }
         show(&found);
     }
+    Ok(())
 }
 
 /// Has a component an edge to keep?

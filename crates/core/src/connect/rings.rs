@@ -1,6 +1,6 @@
 //! Medians over rings of neighbors: smoothing that a few wild values do not move.
 
-use super::candidates::{Candidates, GRAIN, each};
+use super::candidates::{Candidates, GRAIN};
 use super::median::{Sorted, balanced, median, middle};
 
 /// For each vertex the median of the values at it and at those neighbors that count, as seen from it along a half-edge.
@@ -13,7 +13,7 @@ pub fn ring_median(
     counts: impl Fn(usize, usize) -> bool + Sync,
 ) -> Vec<f64> {
     let mut medians = values.to_vec();
-    each(medians.chunks_mut(GRAIN), |(k, part)| {
+    candidates.each(medians.chunks_mut(GRAIN), |(k, part)| {
         for (i, own) in part.iter_mut().enumerate() {
             let v = k * GRAIN + i;
             let ring =

@@ -1,7 +1,7 @@
 //! The second round's view: how much the curve found first turns and changes its step around each vertex, and how many
 //! points as far from others as this one were left out.
 
-use super::candidates::{Candidates, by_vertex};
+use super::candidates::Candidates;
 use super::constants::{Constants, ROUGHNESS_RINGS};
 use super::gaps::Gaps;
 use super::geometry::{Spacing, Turns};
@@ -36,7 +36,7 @@ impl Roughness {
         constants: &Constants,
     ) -> Self {
         let smooth = |value: &(dyn Fn([usize; 2]) -> f32 + Sync)| {
-            let mut values = by_vertex(candidates.vertices(), |v| {
+            let mut values = candidates.by_vertex(|v| {
                 selection.pair(candidates, v).map_or(f64::NAN, |pair| f64::from(value(pair)))
             });
             for _ in 0..ROUGHNESS_RINGS {

@@ -5,7 +5,7 @@
 
 use super::rings::{Index, Rings};
 use crate::error::Result;
-use crate::parts::{each, split, try_each};
+use crate::parts::{each, short, split, try_each};
 use crate::progress::{Progress, Stage};
 
 /// Vertices that one task takes at a time.
@@ -126,12 +126,19 @@ impl Stars {
     }
 
     /// One value for each half-edge, those of one star after another: `write` gets a vertex and its part of them.
-    pub fn map<T: Copy + Send>(&self, empty: T, write: impl Fn(u32, &mut [T]) + Sync) -> Vec<T> {
+    ///
+    /// Of no use, and not whole, if the call is cancelled.
+    pub fn map<T: Copy + Send>(
+        &self,
+        empty: T,
+        progress: &Progress,
+        write: impl Fn(u32, &mut [T]) + Sync,
+    ) -> Vec<T> {
         let mut values = vec![empty; self.half_edges()];
         let parts = split(&mut values, grains(&self.offsets));
         each(parts, |k, mut part| {
-            let first = k * GRAIN;
-            for v in first..(first + GRAIN).min(self.on_hull.len()) {
+            let (first, end) = (k * GRAIN, ((k + 1) * GRAIN).min(self.on_hull.len()));
+            for v in short(first..end, progress).flatten() {
                 let (star, rest) = part.split_at_mut(self.star(v as u32).neighbors.len());
                 write(v as u32, star);
                 part = rest;

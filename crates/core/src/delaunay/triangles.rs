@@ -5,6 +5,7 @@ use super::rings::NONE;
 use crate::exact::circumcenter::circumcenter;
 use crate::parts::{GRAIN, each, split};
 use crate::point::Point;
+use crate::progress::Progress;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -31,7 +32,7 @@ impl Delaunay {
     /// The twin of each half-edge: half-edge 3t + k runs from corner k of triangle t to the next. `None` on the hull.
     #[must_use]
     pub fn twins(&self) -> Vec<Option<u32>> {
-        let wedges = self.wedge_triangles(&self.first_triangles());
+        let wedges = self.wedge_triangles(&self.first_triangles(), &Progress::default());
         let twin = |p: u32, q: u32| {
             let k = self.place(q, p);
             let t = wedges[self.stars.offset(q) + k];
@@ -44,12 +45,12 @@ impl Delaunay {
 
     /// For each half-edge, in the order of the stars: the triangle to its left; `NONE` on the outside of the hull.
     ///
-    /// `first` are the first triangles of vertices.
+    /// `first` are the first triangles of vertices. Of no use if the call is cancelled.
     #[must_use]
-    pub fn wedge_triangles(&self, first: &[u32]) -> Vec<u32> {
-        let own = self.own_triangles(first);
+    pub fn wedge_triangles(&self, first: &[u32], progress: &Progress) -> Vec<u32> {
+        let own = self.own_triangles(first, progress);
         let of = |p: u32, q: u32| own[self.stars.offset(p) + self.place(p, q)];
-        self.stars.map(NONE, |p, triangles| {
+        self.stars.map(NONE, progress, |p, triangles| {
             let star = self.star(p);
             for (k, triangle) in triangles.iter_mut().enumerate() {
                 let (q, Some(r)) = (star.neighbors[k], star.left(k)) else { continue };
@@ -63,8 +64,8 @@ impl Delaunay {
     }
 
     /// The same, but only where the half-edge is from the smallest corner of its triangle.
-    fn own_triangles(&self, first: &[u32]) -> Vec<u32> {
-        self.stars.map(NONE, |p, triangles| {
+    fn own_triangles(&self, first: &[u32], progress: &Progress) -> Vec<u32> {
+        self.stars.map(NONE, progress, |p, triangles| {
             let (star, mut next) = (self.star(p), first[p as usize]);
             for (k, triangle) in triangles.iter_mut().enumerate() {
                 if star.left(k).is_some_and(|r| p < r.min(star.neighbors[k])) {

@@ -46,9 +46,10 @@ pub fn medial_axis(
     // The vertices for circles, for ties, for steps to the left, for edges and twice in the order of the rows.
     progress.enter(Stage::Axis, 6 * delaunay.points().len())?;
     let circles = Circles::new(delaunay, &first, progress)?;
-    let wedges = delaunay.wedge_triangles(&first);
+    let wedges = delaunay.wedge_triangles(&first, progress);
     drop(first);
-    let marks = marks(delaunay, curve, &flips);
+    let marks = marks(delaunay, curve, &flips, progress);
+    progress.advance(0)?;
     let mesh = Mesh { delaunay, wedges: &wedges, marks: &marks };
     let centers = one_for_each_circle(&mesh, &circles, progress)?;
     let inside = inside(&mesh, progress)?;
@@ -133,8 +134,8 @@ fn sides(triangles: &[u32], k: usize) -> Option<[u32; 2]> {
 }
 
 /// The marks of all half-edges; `flips` tells which edges of the curves separate inside and outside.
-fn marks(delaunay: &Delaunay, curve: &Adjacency, flips: &[bool]) -> Vec<Mark> {
-    delaunay.stars().map(Mark::default(), |p, marks| {
+fn marks(delaunay: &Delaunay, curve: &Adjacency, flips: &[bool], progress: &Progress) -> Vec<Mark> {
+    delaunay.stars().map(Mark::default(), progress, |p, marks| {
         let mut is_odd = false;
         for (mark, &q) in marks.iter_mut().zip(delaunay.star(p).neighbors) {
             let number = curve.edge(p, q);

@@ -11,7 +11,8 @@ use crate::point::Point;
 use crate::ridge::ridge;
 use crate::{certify, medial_axis, methods, nesting, trace};
 use std::panic::Location;
-use std::sync::{LazyLock, Mutex};
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::sync::{LazyLock, Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 /// What this thread has used of a processor, to some milliseconds; where that is not told, the time.
@@ -23,45 +24,61 @@ pub fn processor_time() -> Duration {
 }
 
 /// The longest work between two looks, and where the second was.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 struct Longest {
-    looks: usize,
-    last: Option<Duration>,
+    last: Duration,
+    /// When that was: the time of the processor is asked for at most once in a millisecond.
+    asked: Instant,
     time: Duration,
     place: Option<&'static Location<'static>>,
 }
 
-/// The looks of a call.
+/// The looks of a call: how many, and, if that is asked for, the longest work between them.
 #[derive(Debug, Default)]
-pub struct Looks(Mutex<Longest>);
+pub struct Looks {
+    count: AtomicUsize,
+    longest: OnceLock<Mutex<Longest>>,
+}
 
 impl Looks {
     #[track_caller]
     pub fn note(&self) {
-        let mut state = self.0.lock().expect("no one panics");
-        state.looks += 1;
-        if let Some(last) = state.last {
-            let now = processor_time();
-            let gap = now.saturating_sub(last);
-            if gap > state.time {
-                (state.time, state.place) = (gap, Some(Location::caller()));
-            }
-            state.last = Some(now);
+        self.count.fetch_add(1, Relaxed);
+        let Some(longest) = self.longest.get() else { return };
+        let mut state = longest.lock().expect("no one panics");
+        if state.asked.elapsed() < Duration::from_millis(1) {
+            return;
         }
+        let now = processor_time();
+        let gap = now.saturating_sub(state.last);
+        if gap > state.time {
+            (state.time, state.place) = (gap, Some(Location::caller()));
+        }
+        (state.last, state.asked) = (now, Instant::now());
+    }
+
+    fn measure(&self) {
+        let (last, asked) = (processor_time(), Instant::now());
+        let state = Longest { last, asked, time: Duration::ZERO, place: None };
+        self.longest.set(Mutex::new(state)).expect("measured once");
+    }
+
+    fn longest(&self) -> Longest {
+        *self.longest.get().expect("it is measured").lock().expect("no one panics")
     }
 
     fn count(&self) -> usize {
-        self.0.lock().expect("no one panics").looks
+        self.count.load(Relaxed)
     }
 }
 
 /// The longest that `call` works without a look, on one thread, and where that ended.
 fn longest(call: &impl Fn(&Progress) -> Result<()>) -> (Duration, String) {
     let progress = Progress::default();
-    progress.looks.0.lock().expect("no one panics").last = Some(processor_time());
+    progress.looks.measure();
     call(&progress).expect("no one cancels");
     progress.looks.note();
-    let state = *progress.looks.0.lock().expect("no one panics");
+    let state = progress.looks.longest();
     (state.time, format!("{:?}", state.place))
 }
 

@@ -1,9 +1,11 @@
 //! Points that are asked what lies around a place: moments under a Gaussian window.
 
+use crate::error::Result;
+use crate::parts::in_parts;
 use crate::point::{Point, dot, sub};
+use crate::progress::Progress;
 use crate::space::bounds::Bounds;
 use crate::space::boxes::Boxes;
-use rayon::prelude::*;
 
 /// Window widths beyond which a point counts for nothing.
 const CUT: f64 = 3.0;
@@ -16,6 +18,7 @@ const TOO_FAR: f64 = 4.0;
 /// Points, and boxes around them.
 pub struct Cloud<'a> {
     points: &'a [Point],
+    progress: &'a Progress,
     boxes: Boxes,
 }
 
@@ -37,8 +40,8 @@ pub struct Moments {
 impl<'a> Cloud<'a> {
     /// The cloud of `points`, of which those of successive numbers should be near each other.
     #[must_use]
-    pub fn new(points: &'a [Point]) -> Self {
-        Self { points, boxes: Boxes::new(points, |&p| Bounds::at(p)) }
+    pub fn new(points: &'a [Point], progress: &'a Progress) -> Self {
+        Self { points, progress, boxes: Boxes::new(points, |&p| Bounds::at(p)) }
     }
 
     /// One that has seen nothing yet.
@@ -54,13 +57,19 @@ impl<'a> Cloud<'a> {
     }
 
     /// One value for each of `count` numbers, in parallel; those of successive numbers should look near each other.
+    ///
+    /// # Errors
+    /// The call is cancelled.
     pub fn each<T: Send>(
         &self,
         count: usize,
         value: impl Fn(&mut Eye<'_>, usize) -> T + Sync + Send,
-    ) -> Vec<T> {
-        let numbers = (0..count).into_par_iter().with_min_len(GRAIN);
-        numbers.map_init(|| self.eye(), value).collect()
+    ) -> Result<Vec<T>> {
+        let parts = in_parts(count, GRAIN, self.progress, |numbers| {
+            let mut eye = self.eye();
+            numbers.map(|k| value(&mut eye, k)).collect::<Vec<T>>()
+        })?;
+        Ok(parts.into_iter().flatten().collect())
     }
 }
 
@@ -233,7 +242,8 @@ mod tests {
     fn an_eye_sees_the_same_wherever_it_has_looked_before() {
         let points: Vec<Point> =
             (0..500).map(|k| [f64::from(k * 37 % 101), f64::from(k * 53 % 97)]).collect();
-        let cloud = Cloud::new(&points);
+        let progress = Progress::default();
+        let cloud = Cloud::new(&points, &progress);
         let seen = |eye: &mut Eye<'_>, place, reach| {
             let mut found = Vec::new();
             eye.near(place, reach, |k, _, _| found.push(k));

@@ -27,6 +27,9 @@ const GAP: f64 = 0.7;
 /// The weight beside that of the neighbors below which a point is not on the ridge but on its way.
 const FAINT: f64 = 0.4;
 
+/// Points between two looks at whether to stop, where one after another takes little.
+const SELDOM: usize = 1 << 14;
+
 /// A point of the ridge.
 #[derive(Debug, Clone, Copy)]
 pub struct Crest {
@@ -54,24 +57,25 @@ pub struct Ridge {
 pub fn ridge(delaunay: &Delaunay, noise: Option<&[f64]>, progress: &Progress) -> Result<Ridge> {
     let count = delaunay.points().len();
     progress.enter(Stage::Measure, count)?;
-    let cloud = Cloud::new(delaunay.points());
-    let mut scales = scale::scales(delaunay, &cloud);
+    let quiet = progress.quiet();
+    let cloud = Cloud::new(delaunay.points(), &quiet);
+    let mut scales = scale::scales(delaunay, &cloud)?;
     if let Some(noise) = noise {
         scales.iter_mut().zip(noise).for_each(|(scale, &noise)| scale.noise = noise);
     }
     progress.advance(count / 3)?;
-    let widths = cloud.each(count, |eye, v| width(eye, delaunay.points()[v], &scales[v]));
+    let widths = cloud.each(count, |eye, v| width(eye, delaunay.points()[v], &scales[v]))?;
     let mut at = delaunay.points().to_vec();
     for _ in 0..MOVES[0] {
-        at = cloud.each(count, |eye, v| moved(eye, at[v], widths[v]));
+        at = cloud.each(count, |eye, v| moved(eye, at[v], widths[v]))?;
         progress.advance(count / 12)?;
     }
     for _ in 0..MOVES[1] {
-        let cloud = Cloud::new(&at);
-        at = cloud.each(count, |eye, v| moved(eye, at[v], widths[v]));
+        let cloud = Cloud::new(&at, &quiet);
+        at = cloud.each(count, |eye, v| moved(eye, at[v], widths[v]))?;
         progress.advance(count / 12)?;
     }
-    let crests = crests(&at, &widths);
+    let crests = crests(&at, &widths, &quiet)?;
     Ok(Ridge { scales, crests })
 }
 
@@ -98,26 +102,29 @@ fn moved(eye: &mut Eye<'_>, at: Point, width: f64) -> Point {
 }
 
 /// Points that are on the ridge, one for each gap.
-fn crests(at: &[Point], widths: &[f64]) -> Vec<Crest> {
-    let cloud = Cloud::new(at);
+fn crests(at: &[Point], widths: &[f64], progress: &Progress) -> Result<Vec<Crest>> {
+    let cloud = Cloud::new(at, progress);
     let weights = cloud.each(at.len(), |eye, v| {
         if widths[v] > 0.0 { eye.moments(at[v], widths[v]).weight } else { 0.0 }
-    });
+    })?;
     let is_bright = cloud.each(at.len(), |eye, v| {
         let mut around = Vec::new();
         eye.near(at[v], 2.0 * widths[v].max(0.0), |k, _, _| around.push(weights[k as usize]));
         let middle = around.len() / 2;
         let usual = *around.select_nth_unstable_by(middle, f64::total_cmp).1;
         widths[v] == 0.0 || weights[v] >= FAINT * usual && widths[v] > 0.0
-    });
+    })?;
     let mut eye = cloud.eye();
     let mut is_covered = vec![false; at.len()];
     let mut crests = Vec::new();
     for v in 0..at.len() {
+        if v % SELDOM == 0 {
+            progress.advance(0)?;
+        }
         if is_bright[v] && !is_covered[v] {
             crests.push(Crest { vertex: v as u32, at: at[v] });
             eye.near(at[v], GAP * widths[v], |k, _, _| is_covered[k as usize] = true);
         }
     }
-    crests
+    Ok(crests)
 }

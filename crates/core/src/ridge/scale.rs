@@ -7,6 +7,7 @@
 
 use super::cloud::{Cloud, Eye};
 use crate::delaunay::Delaunay;
+use crate::error::Result;
 use crate::point::{Point, length, sub};
 
 /// Points in the first window, about.
@@ -44,9 +45,11 @@ struct Sight {
 }
 
 /// The scales at all vertices.
-#[must_use]
-pub fn scales(delaunay: &Delaunay, cloud: &Cloud<'_>) -> Vec<Scale> {
-    let first = first_windows(delaunay, cloud);
+///
+/// # Errors
+/// The call is cancelled.
+pub fn scales(delaunay: &Delaunay, cloud: &Cloud<'_>) -> Result<Vec<Scale>> {
+    let first = first_windows(delaunay, cloud)?;
     let mut sights =
         vec![Sight { quotient: 1.0, count: 0.0, noise: f64::NAN, is_open: true }; first.len()];
     for step in 0..STEPS {
@@ -56,7 +59,7 @@ pub fn scales(delaunay: &Delaunay, cloud: &Cloud<'_>) -> Vec<Scale> {
             let moments =
                 is_asked(v).then(|| eye.moments(delaunay.point(v as u32), first[v] * factor));
             moments.map(|m| (m.variances[1] / m.variances[0].max(f64::MIN_POSITIVE), m.count))
-        });
+        })?;
         for (sight, seen) in sights.iter_mut().zip(&seen) {
             let Some((quotient, count)) = *seen else { continue };
             (sight.quotient, sight.count) = (quotient, count);
@@ -73,7 +76,7 @@ pub fn scales(delaunay: &Delaunay, cloud: &Cloud<'_>) -> Vec<Scale> {
                 },
                 _ => sights[v],
             }
-        });
+        })?;
         if !sights.iter().any(|sight| sight.is_open) {
             break;
         }
@@ -119,13 +122,13 @@ fn settled(
 }
 
 /// Half the distance from each vertex to the few nearest.
-fn first_windows(delaunay: &Delaunay, cloud: &Cloud<'_>) -> Vec<f64> {
+fn first_windows(delaunay: &Delaunay, cloud: &Cloud<'_>) -> Result<Vec<f64>> {
     let distances = cloud.each(delaunay.points().len(), |eye, v| {
         let p = delaunay.point(v as u32);
         let star = delaunay.star(v as u32).neighbors;
         let far = star.iter().map(|&q| length(sub(delaunay.point(q), p)));
         eye.distance_to_nearest(p, FEW, far.fold(f64::INFINITY, f64::min) * 3.0) / 2.0
-    });
+    })?;
     cloud.each(distances.len(), |_, v| agreed(delaunay, v, |u| distances[u]))
 }
 
