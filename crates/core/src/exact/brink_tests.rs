@@ -21,7 +21,7 @@ impl Coordinates {
         // Few bits make ties, many make roundings.
         let bits = [3, 26, 52][self.below(3) as usize];
         let mantissa = self.below(1 << bits) as f64 - 2f64.powi(bits - 1);
-        mantissa * 2f64.powi(-bits - self.below(24) as i32)
+        mantissa * 2f64.powi(12 - bits - self.below(24) as i32)
     }
     fn point(&mut self) -> Point {
         [self.coordinate(), self.coordinate()]
