@@ -1,11 +1,11 @@
-//! Where a filter is most likely to mislead: a few doubles around the place at which a decision changes.
+//! Where a filter is most likely to mislead: the doubles around the place at which a decision changes.
 
 use crate::exact::sign::{Form, big_sign};
 use crate::point::Point;
 use std::cmp::Ordering;
 
 /// How many sets of points are tried; some change no sign, however one coordinate is moved.
-const TRIALS: usize = 600;
+const TRIALS: usize = 300;
 
 /// Coordinates of many sizes: a filter that takes a size for too small is misled by those that differ most.
 struct Coordinates(u64);
@@ -28,7 +28,7 @@ impl Coordinates {
     }
 }
 
-/// Check points at which the sign of `form` changes, to the next double of one coordinate, and their neighbors.
+/// Check points at which the sign of `form` changes, to the next double of one coordinate, and others near them.
 ///
 /// The sign that `check` is told is that by integers of any size. The origin is zero if `is_central`.
 pub fn at_brinks<const N: usize>(
@@ -50,13 +50,20 @@ pub fn at_brinks<const N: usize>(
         let ends = [random.coordinate(), random.coordinate()];
         let Some(brink) = brink(ends, |x| moved(x).1) else { continue };
         changes += 1;
-        let first = (0..3).fold(brink, |x, _| x.next_down());
-        for x in std::iter::successors(Some(first), |x| Some(x.next_up())).take(8) {
+        for x in about(brink) {
             let (points, sign) = moved(x);
             check(origin, points, sign);
         }
     }
     assert!(changes > TRIALS / 20, "only {changes} changes of sign were met");
+}
+
+/// The doubles next to `x`, and some farther off, where filters begin to tell.
+fn about(x: f64) -> impl Iterator<Item = f64> {
+    let first = (0..3).fold(x, |x, _| x.next_down());
+    let near = std::iter::successors(Some(first), |x| Some(x.next_up())).take(8);
+    let far = (4..48).flat_map(move |bits| [1.0, -1.0].map(|side| x + side * x * 2f64.powi(-bits)));
+    near.chain(far)
 }
 
 /// Where `sign` changes between the ends, if it differs there.

@@ -141,19 +141,25 @@ mod tests {
         }
         assert_bounded(&Denominator);
     }
-    /// Near where a coordinate of the center changes its sign, and on triangles of all sizes and slopes.
+    /// Near where a coordinate of the center changes its sign, or the triangle its turn.
     #[test]
     fn a_center_is_as_near_as_its_error_says() {
-        at_brinks(&Numerator { axis: 0 }, false, |a, [b, c], _| {
+        let mut check = |a, [b, c]: [Point; 2], _| {
             if orientation(a, b, c).is_eq() {
                 return;
             }
-            let center = Center::estimate([a, b, c], a);
             let exact =
                 [0, 1].map(|axis| sign::quotient(&Numerator { axis }, &Denominator, a, &[b, c]));
-            let slack = sign::ACCURACY * (exact[0].abs() + exact[1].abs());
-            let off = length(sub(center.at, exact));
-            assert!(off.is_nan() || off <= center.error + slack, "{off} > {}", center.error);
-        });
+            for origin in [a, b, [1e3, -0.1]] {
+                let center = Center::estimate([a, b, c], origin);
+                let shift = sub(a, origin);
+                let at = [exact[0] + shift[0], exact[1] + shift[1]];
+                let slack = sign::ACCURACY * (length(exact) + length(shift));
+                let off = length(sub(center.at, at));
+                assert!(off.is_nan() || off <= center.error + slack, "{off} > {}", center.error);
+            }
+        };
+        at_brinks(&Numerator { axis: 0 }, false, &mut check);
+        at_brinks(&Denominator, false, check);
     }
 }
