@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from crustline.arrays import as_edges, as_points
+from crustline.arrays import PART, as_edges, as_points, in_parts
 from crustline.errors import InputError
 
 
@@ -129,3 +129,12 @@ def test_edges_that_do_not_fit_are_named(edges, words):
         as_edges(edges, 3)
     for word in words:
         assert word in str(caught.value)
+
+
+@pytest.mark.parametrize("count", [0, 1, PART, PART + 1, 5 * PART - 3])
+def test_parts_cover_all_rows_once_and_are_not_long(count):
+    rows = np.zeros(count, int)
+    for part in in_parts(count):
+        rows[part] += 1
+        assert part.stop - part.start <= PART
+    assert (rows == 1).all()

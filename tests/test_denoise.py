@@ -12,6 +12,8 @@ import pytest
 
 import crustline as cl
 import generators as make
+from crustline import arrays
+from crustline.denoise import clean
 from crustline.denoise.ends import joined
 from crustline.denoise.mixture import HALVES, PLACES, Mixture, Offsets
 from crustline.denoise.polygon import Polygon
@@ -435,3 +437,29 @@ def test_circles_and_lines_cost_nothing(closed: bool) -> None:
     start = Polygon(1.02 * arc, closed).resampled(60)
     found = fit(arc, np.full(len(arc), 0.01), start)
     assert np.abs(np.hypot(*found.polygon.nodes.T) - 1).max() < 1 - math.cos(math.pi / 60)
+
+
+@pytest.mark.parametrize("name", ["ring and line", "two rings"])
+@pytest.mark.parametrize("ratio", [0.0, 0.5])
+def test_working_in_parts_changes_nothing(
+    name: str, ratio: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    points = noisy(name, ratio, 3)[0]
+    whole = cl.denoise(points)
+    monkeypatch.setattr(arrays, "PART", 40)
+    monkeypatch.setattr(clean, "PART", 40)
+    parts = cl.denoise(points)
+    assert np.array_equal(whole.curves.points.xy, parts.curves.points.xy)
+    assert np.array_equal(whole.vertices, parts.vertices)
+    assert np.array_equal(whole.noise, parts.noise, equal_nan=True)
+    assert np.array_equal(whole.uncertainty, parts.uncertainty)
+
+
+def test_medians_of_groups_are_those_of_each(monkeypatch: pytest.MonkeyPatch) -> None:
+    rng = np.random.default_rng(4)
+    counts = np.array([0, 3, 1, 50, 0, 2, 41, 90, 7, 40, 0])
+    group, values = np.repeat(np.arange(len(counts)), counts), rng.random(counts.sum())
+    monkeypatch.setattr(clean, "PART", 40)
+    found = clean._medians(values, group, len(counts))
+    own = [np.median(values[group == k]) if count else np.inf for k, count in enumerate(counts)]
+    assert np.array_equal(found, own)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import pairwise
 from numbers import Real
 from typing import Any
 
@@ -15,6 +16,15 @@ from crustline.errors import InputError, shown
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
 BoolArray = npt.NDArray[np.bool_]
+
+#: Rows that NumPy works on at a time in long calls: Ctrl-C is heard between two of its calls only.
+PART = 1 << 17
+
+
+def in_parts(count: int) -> Iterator[slice]:
+    """Yield successive ranges of about the same length, at most `PART`, that cover `count` rows."""
+    bounds = np.linspace(0, count, max(1, -(-count // PART)) + 1).astype(int).tolist()
+    return (slice(a, b) for a, b in pairwise(bounds))
 
 
 def as_points(points: npt.ArrayLike) -> FloatArray:
@@ -304,5 +314,7 @@ def _check_ends(edges: npt.NDArray[Any], n: int) -> None:
 
 def _canonical(edges: IntArray, n: int) -> IntArray:
     """Sort edges by one int64 key each."""
-    keys = edges.min(axis=1) * n + edges.max(axis=1)
-    return np.stack(np.divmod(np.unique(keys), n), axis=1)
+    # Not by np.unique, which hashes integers first and on millions takes many times as long.
+    keys = np.sort(edges.min(axis=1) * n + edges.max(axis=1))
+    keys = keys[np.append(True, keys[1:] != keys[:-1])]
+    return np.stack(np.divmod(keys, n), axis=1)

@@ -4,7 +4,7 @@ use crate::adjacency::Incidence;
 use crate::error::Result;
 use crate::exact::predicates::orientation;
 use crate::memory;
-use crate::parts::{GRAIN, sort_by};
+use crate::parts::{GRAIN, short, sort_by};
 use crate::point::{Point, lexicographic};
 use crate::progress::{Progress, Stage};
 use std::cmp::Ordering::{Equal, Greater, Less};
@@ -72,7 +72,7 @@ pub fn trace_between<N: Ord>(
 ) -> Result<(Curves, Vec<Vec<u32>>)> {
     let graph = graph(points, edges, progress)?;
     let (mut curves, runs) = follow(points, &graph, &cut, number, progress)?;
-    curves.isolated = isolated(points, &graph);
+    curves.isolated = isolated(points, &graph, progress);
     curves.isolated.retain(|&row| !cut(row));
     curves.isolated.sort_unstable_by_key(|&row| number(row));
     drop(graph);
@@ -165,19 +165,21 @@ impl<N: Ord, C: Fn(u32) -> bool, F: Fn(u32) -> N> Walk<'_, C, F> {
 }
 
 /// The points without an edge: a repeated row counts as its point, so it is not isolated if that has edges.
-fn isolated(points: &[Point], graph: &Incidence) -> Vec<u32> {
+///
+/// If the call is cancelled, not all of them.
+fn isolated(points: &[Point], graph: &Incidence, progress: &Progress) -> Vec<u32> {
     // Adding 0.0 makes one of the two zeros.
     let key = |row: u32| points[row as usize].map(|x| (x + 0.0).to_bits());
     let is_lone = |row: &u32| graph.of(*row).is_empty();
-    let rows = 0..points.len() as u32;
+    let rows = || short(0..points.len(), progress).flatten().map(|row| row as u32);
     let mut first = HashMap::new();
-    for row in rows.clone().filter(is_lone) {
+    for row in rows().filter(is_lone) {
         first.entry(key(row)).or_insert(row);
     }
     if first.is_empty() {
         return Vec::new();
     }
-    for row in rows.filter(|row| !is_lone(row)) {
+    for row in rows().filter(|row| !is_lone(row)) {
         first.remove(&key(row));
     }
     first.into_values().collect()

@@ -31,13 +31,18 @@ pub fn medial_axis<'py>(
         ray_samples,
     } = call.run(py, |progress| axis(core, &curve.adjacency, progress))?;
     let fields = PyDict::new(py);
-    fields.set_item("vertices", coordinates(py, vertices)?)?;
-    fields.set_item("radii", values(py, radii))?;
-    fields.set_item("edges", integer_rows(py, threads, &edges)?)?;
-    fields.set_item("samples", integer_rows(py, threads, &samples)?)?;
-    fields.set_item("inner", values(py, inner))?;
-    fields.set_item("ray_origins", integers(py, ray_origins.into_iter().map(i64::from)))?;
-    fields.set_item("ray_directions", coordinates(py, ray_directions)?)?;
-    fields.set_item("ray_samples", integer_rows(py, threads, &ray_samples)?)?;
+    // All of them together can take longer than Ctrl-C may wait.
+    let set = |name: &str, array: Bound<'py, PyAny>| {
+        py.check_signals()?;
+        fields.set_item(name, array)
+    };
+    set("vertices", coordinates(py, vertices)?.into_any())?;
+    set("radii", values(py, radii).into_any())?;
+    set("edges", integer_rows(py, threads, &edges)?.into_any())?;
+    set("samples", integer_rows(py, threads, &samples)?.into_any())?;
+    set("inner", values(py, inner).into_any())?;
+    set("ray_origins", integers(py, ray_origins.into_iter().map(i64::from)).into_any())?;
+    set("ray_directions", coordinates(py, ray_directions)?.into_any())?;
+    set("ray_samples", integer_rows(py, threads, &ray_samples)?.into_any())?;
     Ok(fields)
 }

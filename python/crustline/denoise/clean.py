@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crustline.arrays import BoolArray, FloatArray, IntArray
+from crustline.arrays import PART, BoolArray, FloatArray, IntArray, in_parts
 from crustline.curves import Curves, trace
 from crustline.delaunay import Delaunay
 from crustline.denoise.strand import Strand
@@ -65,25 +66,46 @@ def _deviation(path: FloatArray, curves: Curves, asked: int) -> FloatArray:
     center = np.flatnonzero(has_all & (sizes[curve] > 2 * asked + 1))
     curve, start = curve[center], curves.offsets[curve[center]]
     steps = np.arange(-asked, asked + 1)
-    around = start[:, None] + (place[center, None] + steps) % sizes[curve, None]
-    error = np.einsum("k,ikj->ij", stencil, path[around])
-    chord = path[around[:, asked + 1]] - path[around[:, asked - 1]]
+    normal = MEDIAN * float(np.sqrt((stencil**2).sum()))
+    deviation = np.empty(len(center))
+    for part in in_parts(len(center)):
+        near = (place[center[part], None] + steps) % sizes[curve[part], None]
+        deviation[part] = _across(path[start[part, None] + near], stencil) / normal
+    return _medians(deviation, curve, len(sizes))
+
+
+def _across(around: FloatArray, stencil: FloatArray) -> FloatArray:
+    """Return how far points are from what their neighbors predict, across the curve, in steps."""
+    middle = len(stencil) // 2
+    error = np.einsum("k,ikj->ij", stencil, around)
+    chord = around[:, middle + 1] - around[:, middle - 1]
     length = np.hypot(*chord.T)
     across = np.abs(error[:, 0] * chord[:, 1] - error[:, 1] * chord[:, 0]) / length
-    normal = MEDIAN * float(np.sqrt((stencil**2).sum()))
-    return _medians(across / (length / 2) / normal, curve, len(sizes))
+    return np.asarray(across / (length / 2))
 
 
 def _medians(values: FloatArray, group: IntArray, groups: int) -> FloatArray:
-    """Return the median of each group of values, infinity for none."""
-    ordered = values[np.lexsort((values, group))]
+    """Return the median of each of successive groups of values, infinity for none."""
     counts = np.bincount(group, minlength=groups)
+    first = np.cumsum(counts) - counts
+    is_large = counts > PART
+    begins = is_large | np.append(False, is_large[:-1]) | (np.diff(first // PART, prepend=-1) > 0)
+    ordered = values.copy()
+    for a, b in pairwise([*first[begins], len(values)]):
+        ordered[a:b] = _in_order(values[a:b], group[a:b])
     has_some = np.flatnonzero(counts)
-    first = (np.cumsum(counts) - counts)[has_some]
-    low, high = first + (counts[has_some] - 1) // 2, first + counts[has_some] // 2
+    low, high = first + (counts - 1) // 2, first + counts // 2
     medians = np.full(groups, np.inf)
-    medians[has_some] = (ordered[low] + ordered[high]) / 2
+    medians[has_some] = (ordered[low[has_some]] + ordered[high[has_some]]) / 2
     return medians
+
+
+def _in_order(values: FloatArray, group: IntArray) -> FloatArray:
+    """Return values ordered within each of some groups; of one alone, only those in the middle."""
+    count = len(values)
+    if count and group[0] == group[-1]:
+        return np.partition(values, ((count - 1) // 2, count // 2))
+    return values[np.lexsort((values, group))]
 
 
 def _strand(delaunay: Delaunay, rows: IntArray, closed: bool) -> Strand:

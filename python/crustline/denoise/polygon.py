@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Literal
 
 import numpy as np
 
-from crustline.arrays import BoolArray, FloatArray, IntArray
+from crustline.arrays import BoolArray, FloatArray, IntArray, in_parts
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +61,14 @@ class Polygon:
         """Return the nearest places of the polygon, near its nearest nodes."""
         from scipy.spatial import cKDTree
 
-        nearest = np.asarray(cKDTree(self.nodes).query(points)[1], np.int64)
+        tree = cKDTree(self.nodes)
+        made = [
+            self._feet(points[part], np.asarray(tree.query(points[part])[1], np.int64))
+            for part in in_parts(len(points))
+        ]
+        return Feet(*(np.concatenate([vars(feet)[f.name] for feet in made]) for f in fields(Feet)))
+
+    def _feet(self, points: FloatArray, nearest: IntArray) -> Feet:
         path, last = self.path, len(self.path) - 2
         before = (nearest - 1) % len(self) if self.closed else np.clip(nearest - 1, 0, last)
         after = nearest if self.closed else np.clip(nearest, 0, last)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crustline import _core
-from crustline.arrays import BoolArray, FloatArray, IntArray
+from crustline.arrays import BoolArray, FloatArray, IntArray, in_parts
 from crustline.curves import trace
 from crustline.delaunay import Delaunay
 from crustline.denoise.ends import joined
@@ -119,9 +119,13 @@ def _owners(points: FloatArray, starts: list[Polygon], ridge: _Ridge) -> IntArra
     from scipy.spatial import cKDTree
 
     numbers = np.repeat(np.arange(len(starts)), [len(start) for start in starts])
-    distance, node = cKDTree(np.vstack([start.nodes for start in starts])).query(points)
+    tree = cKDTree(np.vstack([start.nodes for start in starts]))
     reach = (FAR + 2) * np.nan_to_num(ridge.noise) + ridge.width
-    return np.where(distance <= reach, numbers[node], -1)
+    owners = np.empty(len(points), np.int64)
+    for part in in_parts(len(points)):
+        distance, node = tree.query(points[part])
+        owners[part] = np.where(distance <= reach[part], numbers[node], -1)
+    return owners
 
 
 def _strands(

@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::exact::double_double::squared_length;
 use crate::exact::filter;
 use crate::exact::sign::{self, Form, Number, exact_sign};
-use crate::parts::{GRAIN, in_parts};
+use crate::parts::{GRAIN, in_parts, short};
 use crate::point::{Point, dot, lexicographic, sub};
 use crate::progress::Progress;
 use std::cmp::Ordering;
@@ -103,6 +103,7 @@ pub(super) fn ranked(
     keep: impl Fn(Edge) -> bool + Sync,
 ) -> Result<Vec<Ranked>> {
     let parts = in_parts(delaunay.points().len(), GRAIN, progress, |vertices| {
+        let vertices = short(vertices, progress).flatten();
         let edges = vertices.flat_map(|p| delaunay.edges_from(p as u32));
         let kept = edges.filter(|&edge| keep(edge));
         kept.map(|edge| Ranked::new(delaunay, edge.p, edge.q)).collect::<Vec<_>>()
