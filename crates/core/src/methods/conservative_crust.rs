@@ -37,8 +37,10 @@ pub fn conservative_crust(delaunay: &Delaunay, ratio: f64, progress: &Progress) 
     let own = joined.edges();
     let crossed = map(own.len(), None, progress, |k| disks.crossed(own[k][0], own[k][1]))?;
     let stays = largest(&crossed);
+    progress.advance(0)?;
     let kept = joined.edges().iter().zip(stays).filter(|&(_, stays)| stays);
     let kept = kept.map(|(&[p, q], _)| rows(delaunay, p, q)).collect();
+    progress.advance(0)?;
     Ok(sort(&[kept], delaunay.input_len()))
 }
 

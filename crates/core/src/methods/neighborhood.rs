@@ -93,7 +93,9 @@ fn edges_to<I: IntoIterator<Item = u32>>(
         vertices.flat_map(|p| from(p as u32)).collect()
     })?;
     let mut edges = sort(&parts, delaunay.input_len());
+    progress.advance(0)?;
     edges.dedup();
+    progress.advance(0)?;
     Ok(edges)
 }
 
