@@ -39,10 +39,16 @@ pub fn ridge<'py>(
     let call = Call { size: triangulation.input_len(), threads, callback: progress };
     let found = call.run(py, |progress| core::ridge(triangulation, given.as_deref(), progress))?;
     let unscaled = |value: f64| value / scale;
+    // All arrays together can take longer than Ctrl-C may wait.
+    let first_rows = integers(py, rows.iter().map(|&row| row.into()));
+    py.check_signals()?;
+    let noise = values(py, found.scales.iter().map(|each| unscaled(each.noise)).collect());
+    let first = values(py, found.scales.iter().map(|each| unscaled(each.first)).collect());
+    py.check_signals()?;
     Ok((
-        integers(py, rows.iter().map(|&row| row.into())),
-        values(py, found.scales.iter().map(|each| unscaled(each.noise)).collect()),
-        values(py, found.scales.iter().map(|each| unscaled(each.first)).collect()),
+        first_rows,
+        noise,
+        first,
         integers(py, found.crests.iter().map(|crest| crest.vertex.into())),
         coordinates(py, found.crests.iter().map(|crest| crest.at.map(unscaled)).collect())?,
     ))

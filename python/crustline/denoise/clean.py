@@ -50,7 +50,8 @@ def _noise(points: FloatArray, curves: Curves) -> FloatArray:
 
     Bends are predicted the better the more neighbors are asked, noise is not: the least counts.
     """
-    asked = [_deviation(points[curves.indices], curves, each) for each in NEIGHBORS]
+    path = points.take(curves.indices, axis=0)
+    asked = [_deviation(path, curves, each) for each in NEIGHBORS]
     least: FloatArray = np.min(asked, axis=0)
     return least
 
