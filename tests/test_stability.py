@@ -24,6 +24,14 @@ def test_an_edge_is_in_the_skeleton_up_to_its_beta(seed: int, beta: float) -> No
     assert pairs(edges[betas >= beta]) == pairs(cl.beta_skeleton(points, beta))
 
 
+def test_beta_of_neighbors_on_one_line_is_infinite_and_needs_no_search() -> None:
+    along = np.random.default_rng(0).permutation(50_000) / 7
+    level = cl.Delaunay(np.c_[along, np.full(len(along), 0.1)])
+    assert len(level.edges) == len(along) - 1
+    assert np.isinf(cl.beta_of(level, level.edges)).all()
+    assert cl.beta_interval(level, 1.7) == (1.0, np.inf)
+
+
 def test_beta_of_edges_that_no_point_sees_or_one_is_on() -> None:
     line = [(0, 0), (1, 0), (3, 0)]
     assert cl.beta_of(line, [(0, 1), (0, 2), (1, 2)]).tolist() == [np.inf, 0.0, np.inf]
