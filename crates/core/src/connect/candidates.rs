@@ -5,7 +5,7 @@ use super::constants::MOST_PAIRED;
 use crate::cocircular::diagonals;
 use crate::delaunay::{Delaunay, Edge};
 use crate::error::{Error, Result};
-use crate::parts::split;
+use crate::parts::{sort_by, split};
 use crate::point::sub;
 use crate::progress::Progress;
 use rayon::prelude::*;
@@ -320,8 +320,10 @@ fn tied(delaunay: &Delaunay, keep: &[[u32; 2]], progress: &Progress) -> Result<V
     let kept = kept.map(|&[p, q]| Edge { p, q, left: None, right: None });
     let all = diagonals(delaunay, progress)?.into_iter().chain(kept);
     let mut tied: Vec<_> = all.filter(is_new).flat_map(both).collect();
-    tied.par_sort_unstable_by_key(|&(v, edge)| (v, edge.p, edge.q));
-    tied.dedup_by_key(|&mut (v, edge)| (v, edge.p, edge.q));
+    progress.advance(0)?;
+    let key = |&(v, edge): &(u32, Edge)| (v, edge.p, edge.q);
+    sort_by(&mut tied, progress, |a, b| key(a).cmp(&key(b)))?;
+    tied.dedup_by_key(|own| key(own));
     Ok(tied)
 }
 
