@@ -79,8 +79,10 @@ def _greatest_angles(delaunay: Delaunay, edges: IntArray) -> FloatArray:
     for number in (0, 1):
         there = first + number < last
         greatest[there] = np.maximum(greatest[there], seen[(first + number)[there]])
-    # Without triangles all points are on one line, and none sees what joins two neighbors there.
-    others = np.flatnonzero((first == last) & ~np.isin(wanted, delaunay.edges @ [n, 1]))
+    others = np.flatnonzero(first == last)
+    if len(corners) == 0:
+        # All points are on one line, and none sees what joins two neighbors there.
+        others = others[~np.isin(wanted[others], delaunay.edges @ [n, 1])]
     at_once = max(1, _AT_ONCE // max(1, n))
     for part in np.split(others, np.arange(at_once, len(others), at_once)):
         greatest[part] = _greatest_of_all(xy, edges[part])
