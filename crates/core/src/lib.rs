@@ -31,6 +31,8 @@ mod space;
 pub mod tiles;
 pub mod trace;
 mod voronoi;
+#[cfg(test)]
+mod xorshift;
 
 pub use adjacency::Adjacency;
 pub use delaunay::Delaunay;

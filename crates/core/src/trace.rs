@@ -242,16 +242,12 @@ impl Curves {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::xorshift::Xorshift;
 
     #[test]
     fn every_edge_is_in_one_curve_and_every_point_without_one_is_isolated() {
-        let mut state = 5u64;
-        let mut random = |limit: u64| {
-            state ^= state << 13;
-            state ^= state >> 7;
-            state ^= state << 17;
-            (state >> 20) % limit
-        };
+        let mut state = Xorshift(5);
+        let mut random = |limit: u64| (state.next() >> 20) % limit;
         for _ in 0..500 {
             let count = 2 + random(9) as u32;
             let points: Vec<Point> =

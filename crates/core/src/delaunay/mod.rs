@@ -177,9 +177,7 @@ impl Delaunay {
             right: star.right(k),
         })
     }
-}
 
-impl Delaunay {
     /// Write the edges from each of `vertices` to those of larger number to the front of `edges`; return how many these are.
     ///
     /// Without a branch on which way an edge leads, which no processor foresees.

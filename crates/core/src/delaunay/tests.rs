@@ -2,17 +2,15 @@ use super::{Delaunay, leaf, stars};
 use crate::point::Point;
 use crate::progress::Progress;
 use crate::space::order::order;
+use crate::xorshift::Xorshift;
 use std::collections::BTreeSet;
 
-/// A small deterministic generator (xorshift), enough to scatter points.
-struct Scatter(u64);
+/// Points that look random.
+struct Scatter(Xorshift);
 
 impl Scatter {
     fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+        (self.0.next() >> 11) as f64 / (1u64 << 53) as f64
     }
 
     fn points(&mut self, count: usize) -> Vec<Point> {
@@ -40,7 +38,7 @@ fn row_edges(delaunay: &Delaunay) -> BTreeSet<(u32, u32)> {
 fn random_points_have_the_edges_that_another_triangulation_finds() {
     use spade::{DelaunayTriangulation, Point2, Triangulation};
     for seed in 1..20 {
-        let points = Scatter(seed).points(50 * seed as usize);
+        let points = Scatter(Xorshift(seed)).points(50 * seed as usize);
         let sites = points.iter().map(|p| Point2::new(p[0], p[1])).collect();
         let other = DelaunayTriangulation::<Point2<f64>>::bulk_load_stable(sites).unwrap();
         let expected = other
@@ -56,7 +54,7 @@ fn random_points_have_the_edges_that_another_triangulation_finds() {
 fn ties_duplicates_and_lines_are_triangulated() {
     for seed in 1..400 {
         let side = 1.0 + (seed % 9) as f64;
-        triangulate(&Scatter(seed).lattice(1 + seed as usize % 40, side));
+        triangulate(&Scatter(Xorshift(seed)).lattice(1 + seed as usize % 40, side));
     }
     for count in 0..30 {
         triangulate(&vec![[0.5, -0.25]; count]);
@@ -68,7 +66,7 @@ fn ties_duplicates_and_lines_are_triangulated() {
 #[test]
 fn points_a_few_ulps_off_a_lattice_are_triangulated() {
     for seed in 1..300 {
-        let mut scatter = Scatter(seed);
+        let mut scatter = Scatter(Xorshift(seed));
         let mut points = scatter.lattice(30, 5.0);
         for x in points.iter_mut().flatten() {
             *x = match (scatter.next() * 4.0) as u32 {
@@ -84,7 +82,7 @@ fn points_a_few_ulps_off_a_lattice_are_triangulated() {
 #[test]
 fn scaling_and_shifting_exactly_changes_no_edge() {
     for seed in 1..40 {
-        let points = Scatter(seed).lattice(40, 12.0);
+        let points = Scatter(Xorshift(seed)).lattice(40, 12.0);
         let expected = row_edges(&triangulate(&points));
         for exponent in [-1000, -300, 300, 1000] {
             let scaled: Vec<_> =
@@ -99,7 +97,7 @@ fn scaling_and_shifting_exactly_changes_no_edge() {
 #[test]
 fn the_order_of_rows_changes_no_edge() {
     for seed in 1..60 {
-        let points = Scatter(seed).lattice(60, 16.0);
+        let points = Scatter(Xorshift(seed)).lattice(60, 16.0);
         let delaunay = triangulate(&points);
         let reversed: Vec<_> = points.iter().rev().copied().collect();
         let other = triangulate(&reversed);
@@ -111,7 +109,7 @@ fn the_order_of_rows_changes_no_edge() {
 #[test]
 fn close_clusters_that_share_a_code_are_triangulated() {
     for seed in 1..30 {
-        let mut points = Scatter(seed).points(200);
+        let mut points = Scatter(Xorshift(seed)).points(200);
         for p in &mut points[50..] {
             *p = p.map(|x| 0.75 + x * 2f64.powi(-40));
         }
@@ -124,7 +122,7 @@ fn close_clusters_that_share_a_code_are_triangulated() {
 
 #[test]
 fn a_leaf_too_small_for_a_cell_leaves_it_to_its_halves() {
-    let mut scatter = Scatter(11);
+    let mut scatter = Scatter(Xorshift(11));
     for points in [scatter.points(3000), scatter.lattice(700, 30.0), scatter.lattice(900, 40.0)] {
         let sorted = order(&points, &Progress::default()).expect("points within range");
         let with = |leaf| {
@@ -148,7 +146,7 @@ fn a_leaf_too_small_for_a_cell_leaves_it_to_its_halves() {
 
 #[test]
 fn any_number_of_threads_gives_the_same_triangulation() {
-    let points = Scatter(7).points(60_000);
+    let points = Scatter(Xorshift(7)).points(60_000);
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| triangulate(&points).triangles())

@@ -2,6 +2,7 @@
 
 use crate::exact::sign::{Form, big_sign};
 use crate::point::Point;
+use crate::xorshift::Xorshift;
 use std::cmp::Ordering;
 
 /// How many changes of sign are looked at; some sets of points have none, however one coordinate is moved.
@@ -9,14 +10,11 @@ const CHANGES: usize = 250;
 const TRIALS: usize = 20_000;
 
 /// Coordinates of many sizes: a filter that takes a size for too small is misled by those that differ most.
-struct Coordinates(u64);
+struct Coordinates(Xorshift);
 
 impl Coordinates {
     fn below(&mut self, limit: u64) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) % limit
+        (self.0.next() >> 11) % limit
     }
     fn coordinate(&mut self) -> f64 {
         // Few bits make ties, many make roundings.
@@ -37,7 +35,7 @@ pub fn at_brinks<const N: usize>(
     is_central: bool,
     mut check: impl FnMut(Point, [Point; N], Ordering),
 ) {
-    let mut random = Coordinates(20_261);
+    let mut random = Coordinates(Xorshift(20_261));
     let mut changes = 0;
     for _ in 0..TRIALS {
         let origin = if is_central { [0.0; 2] } else { random.point() };

@@ -141,6 +141,7 @@ mod tests {
         }
         assert_bounded(&Denominator);
     }
+
     /// Near where a coordinate of the center changes its sign, or the triangle its turn.
     #[test]
     fn a_center_is_as_near_as_its_error_says() {

@@ -138,6 +138,7 @@ impl Number for DoubleDouble {
 mod tests {
     use super::*;
     use crate::exact::integer::decompose;
+    use crate::xorshift::Xorshift;
     use num_bigint::BigInt;
     use num_traits::Signed;
 
@@ -153,11 +154,9 @@ mod tests {
 
     #[test]
     fn sums_and_products_are_within_their_bounds() {
-        let mut state = 1u64;
+        let mut random = Xorshift(1);
         let mut random = || {
-            state ^= state << 13;
-            state ^= state >> 7;
-            state ^= state << 17;
+            let state = random.next();
             let bits = state & ((1 << 52) - 1) & (u64::MAX << (state % 50));
             f64::from_bits(((1000 + state % 46) << 52) | bits)
                 * if state & 1 << 60 == 0 { 1.0 } else { -1.0 }

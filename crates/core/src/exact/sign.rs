@@ -167,16 +167,12 @@ fn big_quotient<const N: usize>(
 pub(crate) mod tests {
     use super::*;
     use crate::exact::brink_tests::at_brinks;
+    use crate::xorshift::Xorshift;
 
     /// Does the bound of `form` hold, for coordinates of many sizes and for the largest there are? Its integers overflow if it does not.
     pub(crate) fn assert_bounded<const N: usize>(form: &impl Form<N>) {
-        let mut state = 7u64;
-        let mut random = |limit: u64| {
-            state ^= state << 13;
-            state ^= state >> 7;
-            state ^= state << 17;
-            (state >> 20) % limit
-        };
+        let mut state = Xorshift(7);
+        let mut random = |limit: u64| (state.next() >> 20) % limit;
         for k in 0..4000 {
             let bits = 1 + k % 30;
             let most = (1i64 << bits) - 1;

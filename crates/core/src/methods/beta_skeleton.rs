@@ -169,6 +169,7 @@ mod tests {
             assert_bounded(&Lune::new(beta).disk);
         }
     }
+
     #[test]
     fn a_point_in_a_touching_disk_is_told_where_that_changes() {
         for beta in [1.0, 1.7, 12345.678] {

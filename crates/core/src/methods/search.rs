@@ -268,6 +268,7 @@ mod tests {
         assert_bounded(&RoomAhead);
         assert_bounded(&RoomBehind);
     }
+
     /// Where it is in doubt whether the neighbor is ahead, there may be room that is not seen.
     #[test]
     fn no_room_is_seen_where_there_is_none() {

@@ -87,6 +87,7 @@ impl Visit {
         self.cells.extend([edge.p, edge.q]);
         let ratio = disk.radius / dot(pencil.chord(), pencil.chord()).sqrt();
         let apex = own_apex(delaunay, edge, pencil, disk);
+        let known_at_end = |other| [if apex == NONE { NONE } else { other }; 2];
         let (mut next, mut found) = (0, None);
         while next < self.cells.len() && found.is_none() && next < most {
             let cell = self.cells[next];
@@ -94,8 +95,8 @@ impl Visit {
             crate::progress::work_tests::count(crate::progress::work_tests::CELL);
             let site = delaunay.point(cell);
             let (chord, known) = match next {
-                0 => (pencil.chord(), if apex == NONE { [NONE; 2] } else { [edge.q; 2] }),
-                1 => (sub(pencil.p, pencil.q), if apex == NONE { [NONE; 2] } else { [edge.p; 2] }),
+                0 => (pencil.chord(), known_at_end(edge.q)),
+                1 => (sub(pencil.p, pencil.q), known_at_end(edge.p)),
                 // Nothing is ahead.
                 _ => ([0.0; 2], [edge.p, edge.q]),
             };

@@ -11,17 +11,15 @@ use crate::point::Point;
 use crate::progress::Progress;
 use crate::space::bounds::Bounds;
 use crate::trace::{trace, trace_between};
+use crate::xorshift::Xorshift;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Numbers that look random.
-struct Random(u64);
+struct Random(Xorshift);
 
 impl Random {
     fn below(&mut self, limit: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 33) as usize % limit
+        (self.0.next() >> 33) as usize % limit
     }
 }
 
@@ -350,7 +348,7 @@ fn points(random: &mut Random) -> Vec<Point> {
 
 #[test]
 fn decisions_of_tiles_are_those_of_the_whole() {
-    let mut random = Random(15);
+    let mut random = Random(Xorshift(15));
     let progress = Progress::default();
     for _ in 0..1500 {
         let world = World::new(points(&mut random), &mut random);
@@ -372,7 +370,7 @@ fn decisions_of_tiles_are_those_of_the_whole() {
 /// Each point a group of its own, and a random part of them seen: where a verdict can change, it must say so.
 #[test]
 fn a_verdict_is_final_only_if_no_unseen_point_can_change_it() {
-    let mut random = Random(17);
+    let mut random = Random(Xorshift(17));
     let progress = Progress::default();
     let mut changed = 0;
     for _ in 0..20_000 {
@@ -464,7 +462,7 @@ fn any_edges(points: usize, random: &mut Random) -> Edges {
 
 #[test]
 fn curves_across_tiles_are_those_of_the_whole() {
-    let mut random = Random(16);
+    let mut random = Random(Xorshift(16));
     let progress = Progress::default();
     for _ in 0..3000 {
         let world = World::new(points(&mut random), &mut random);
