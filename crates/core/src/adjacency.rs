@@ -113,9 +113,18 @@ impl Adjacency {
     #[inline]
     #[must_use]
     pub fn edge(&self, p: u32, q: u32) -> Option<u32> {
-        let ends = self.of(p);
-        // Edges are sorted, so at each vertex their other ends ascend.
-        ends.binary_search_by_key(&q, |&(end, _)| end).ok().map(|k| ends[k].1)
+        match *self.of(p) {
+            // Without a branch on which way a search goes.
+            [(a, of_a), (b, of_b)] => {
+                if q == a {
+                    Some(of_a)
+                } else {
+                    (q == b).then_some(of_b)
+                }
+            }
+            // Edges are sorted, so at each vertex their other ends ascend.
+            ref ends => ends.binary_search_by_key(&q, |&(end, _)| end).ok().map(|k| ends[k].1),
+        }
     }
 }
 

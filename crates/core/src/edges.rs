@@ -3,7 +3,7 @@
 use crate::delaunay::{Delaunay, Edge};
 use crate::error::Result;
 use crate::memory;
-use crate::parts::{GRAIN, each, in_parts, scatter, short, split};
+use crate::parts::{GRAIN, in_parts, scatter, short, split, try_each};
 use crate::progress::{Progress, Stage};
 
 /// Memory for each vertex at the peak, if up to three edges each are kept and sorted.
@@ -87,36 +87,53 @@ const ROWS: usize = 1 << 12;
 const MOST_TASKS: usize = 1 << 12;
 
 /// Put `parts` of edges on `rows` rows into one sorted list.
-///
-/// Counting by the first row, in two passes, and then sorting the few edges of each: linear, where a comparison sort is not.
 #[must_use]
+#[allow(clippy::missing_panics_doc)] // There is no one to cancel.
 pub fn sort(parts: &[Edges], rows: usize) -> Edges {
-    let width = rows.min(ROWS).max(rows / MOST_TASKS).next_power_of_two();
-    let shift = width.trailing_zeros();
-    let bucket = |edge: &[u32; 2]| edge[0] as usize >> shift;
-    let (mut edges, counts) = scatter(parts, [0, 0], (rows >> shift) + 1, bucket);
-    each(split(&mut edges, counts), |k, edges| sort_rows(edges, k << shift, width));
-    edges
+    sort_by(parts, rows, |&edge| edge, &Progress::default()).expect("no one cancels")
 }
 
-/// Sort the edges whose first row is one of the `width` rows from `first`.
-fn sort_rows(edges: &mut [[u32; 2]], first: usize, width: usize) {
-    let row = |edge: &[u32; 2]| edge[0] as usize - first;
+/// Put `parts` of items into one list, sorted by the `edge` of each, on `rows` rows.
+///
+/// Counting by the first row, in two passes, and then sorting the few edges of each: linear, where a comparison sort is not.
+///
+/// # Errors
+/// A cancelled `progress`.
+pub fn sort_by<T: Copy + Default + Send + Sync>(
+    parts: &[Vec<T>],
+    rows: usize,
+    edge: impl Fn(&T) -> [u32; 2] + Sync + Send,
+    progress: &Progress,
+) -> Result<Vec<T>> {
+    let width = rows.min(ROWS).max(rows / MOST_TASKS).next_power_of_two();
+    let shift = width.trailing_zeros();
+    let bucket = |item: &T| edge(item)[0] as usize >> shift;
+    let (mut items, counts) = scatter(parts, T::default(), (rows >> shift) + 1, bucket);
+    try_each(split(&mut items, counts), |k, items| {
+        sort_rows(items, k << shift, width, &edge);
+        progress.advance(0)
+    })?;
+    Ok(items)
+}
+
+/// Sort the items whose edges are on the `width` rows from `first`.
+fn sort_rows<T: Copy>(items: &mut [T], first: usize, width: usize, edge: impl Fn(&T) -> [u32; 2]) {
+    let row = |item: &T| edge(item)[0] as usize - first;
     let mut ends = vec![0u32; width + 1];
-    for edge in &*edges {
-        ends[row(edge) + 1] += 1;
+    for item in &*items {
+        ends[row(item) + 1] += 1;
     }
     for row in 0..width {
         ends[row + 1] += ends[row];
     }
-    let unsorted = edges.to_vec();
-    for edge in unsorted {
-        let end = &mut ends[row(&edge)];
-        edges[*end as usize] = edge;
+    let unsorted = items.to_vec();
+    for item in unsorted {
+        let end = &mut ends[row(&item)];
+        items[*end as usize] = item;
         *end += 1;
     }
-    for same in edges.chunk_by_mut(|a, b| a[0] == b[0]).filter(|same| same.len() > 1) {
-        same.sort_unstable();
+    for same in items.chunk_by_mut(|a, b| row(a) == row(b)).filter(|same| same.len() > 1) {
+        same.sort_unstable_by_key(&edge);
     }
 }
 

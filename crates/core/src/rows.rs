@@ -53,16 +53,6 @@ impl<T: Copy + Send + Sync> OfVertices<T> {
         Ok(Self { parts })
     }
 
-    /// The items of successive vertices, in parts.
-    pub fn parts(&self) -> Vec<&[T]> {
-        self.parts.iter().map(|part| &part.items[..]).collect()
-    }
-
-    /// The same, to change them.
-    pub fn parts_mut(&mut self) -> Vec<&mut [T]> {
-        self.parts.iter_mut().map(|part| &mut part.items[..]).collect()
-    }
-
     /// Hand out the items of all rows in their order, those of some successive rows at a time.
     ///
     /// `targets` makes of the numbers of items what each call of `write` is given. A row that repeats another has none.

@@ -8,8 +8,8 @@ use numpy::{Element, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
-/// Numbers that one task writes at a time.
-const GRAIN: usize = 1 << 16;
+/// Rows that one task writes at a time.
+const GRAIN: usize = 1 << 15;
 
 /// The rows of an (n, 2) array, without a copy.
 ///
@@ -58,9 +58,33 @@ pub fn integer_rows<'py, const N: usize>(
     threads: Option<usize>,
     rows: &[[u32; N]],
 ) -> PyResult<Bound<'py, PyArray2<i64>>> {
-    room::<i64>(py, N * rows.len())?;
-    let array = PyArray2::zeros(py, [rows.len(), N], false);
-    fill(&array, threads, rows.as_flattened(), |&x| i64::from(x))
+    integer_rows_of(py, threads, rows, |&row| row)
+}
+
+/// The same, of the `row` of each item.
+pub fn integer_rows_of<'py, S: Sync, const N: usize>(
+    py: Python<'py>,
+    threads: Option<usize>,
+    items: &[S],
+    row: impl Fn(&S) -> [u32; N] + Sync + Send,
+) -> PyResult<Bound<'py, PyArray2<i64>>> {
+    room::<i64>(py, N * items.len())?;
+    let array = PyArray2::zeros(py, [items.len(), N], false);
+    let mut writable = array.readwrite();
+    let (rows, _) = writable.as_slice_mut()?.as_chunks_mut::<N>();
+    let write = |(rows, items): (&mut [[i64; N]], &[S])| {
+        for (target, item) in rows.iter_mut().zip(items) {
+            *target = row(item).map(i64::from);
+        }
+    };
+    if items.len() <= GRAIN {
+        write((rows, items));
+    } else {
+        let parts = rows.par_chunks_mut(GRAIN).zip(items.par_chunks(GRAIN));
+        aside(py, threads, || parts.for_each(write))?;
+    }
+    writable.make_nonwriteable();
+    Ok(array)
 }
 
 /// A fresh read-only array of integers.
@@ -86,27 +110,4 @@ pub fn values<T: Element>(py: Python<'_>, values: Vec<T>) -> Bound<'_, PyArray1<
     let array = PyArray1::from_vec(py, values);
     array.readwrite().make_nonwriteable();
     array
-}
-
-fn fill<'py, S: Sync, T: Element + Copy>(
-    array: &Bound<'py, PyArray2<T>>,
-    threads: Option<usize>,
-    source: &[S],
-    convert: impl Fn(&S) -> T + Sync + Send,
-) -> PyResult<Bound<'py, PyArray2<T>>> {
-    let mut writable = array.readwrite();
-    let targets = writable.as_slice_mut()?;
-    let write = |(targets, values): (&mut [T], &[S])| {
-        for (target, value) in targets.iter_mut().zip(values) {
-            *target = convert(value);
-        }
-    };
-    if source.len() <= GRAIN {
-        write((targets, source));
-    } else {
-        let parts = targets.par_chunks_mut(GRAIN).zip(source.par_chunks(GRAIN));
-        aside(array.py(), threads, || parts.for_each(write))?;
-    }
-    writable.make_nonwriteable();
-    Ok(array.clone())
 }

@@ -1,6 +1,6 @@
 //! The medial axis of samples: a triangulation and edges in, arrays out.
 
-use crate::arrays::{coordinates, integer_rows, integers, values};
+use crate::arrays::{coordinates, integer_rows, integer_rows_of, integers, values};
 use crate::call::Call;
 use crate::curve::Curve;
 use crate::delaunay::Delaunay;
@@ -20,16 +20,8 @@ pub fn medial_axis<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let core = delaunay.core();
     let call = Call { size: core.input_len(), threads, callback: progress };
-    let MedialAxis {
-        vertices,
-        radii,
-        edges,
-        samples,
-        inner,
-        ray_origins,
-        ray_directions,
-        ray_samples,
-    } = call.run(py, |progress| axis(core, &curve.adjacency, progress))?;
+    let MedialAxis { vertices, radii, edges, ray_origins, ray_directions, ray_samples } =
+        call.run(py, |progress| axis(core, &curve.adjacency, progress))?;
     let fields = PyDict::new(py);
     // All of them together can take longer than Ctrl-C may wait.
     let set = |name: &str, array: Bound<'py, PyAny>| {
@@ -38,9 +30,10 @@ pub fn medial_axis<'py>(
     };
     set("vertices", coordinates(py, vertices)?.into_any())?;
     set("radii", values(py, radii).into_any())?;
-    set("edges", integer_rows(py, threads, &edges)?.into_any())?;
-    set("samples", integer_rows(py, threads, &samples)?.into_any())?;
-    set("inner", values(py, inner).into_any())?;
+    set("edges", integer_rows_of(py, threads, &edges, |edge| edge.ends)?.into_any())?;
+    set("samples", integer_rows_of(py, threads, &edges, |edge| edge.samples)?.into_any())?;
+    let inner = edges.iter().map(|edge| edge.is_inner).collect();
+    set("inner", values::<bool>(py, inner).into_any())?;
     set("ray_origins", integers(py, ray_origins.into_iter().map(i64::from)).into_any())?;
     set("ray_directions", coordinates(py, ray_directions)?.into_any())?;
     set("ray_samples", integer_rows(py, threads, &ray_samples)?.into_any())?;

@@ -38,9 +38,9 @@ impl From<core::MedialAxis> for MedialAxis {
         Self {
             vertices: flat(axis.vertices),
             radii: axis.radii,
-            edges: flat(axis.edges),
-            samples: flat(axis.samples),
-            inner: axis.inner.into_iter().map(u8::from).collect(),
+            edges: axis.edges.iter().flat_map(|edge| edge.ends).collect(),
+            samples: axis.edges.iter().flat_map(|edge| edge.samples).collect(),
+            inner: axis.edges.iter().map(|edge| u8::from(edge.is_inner)).collect(),
             ray_origins: axis.ray_origins,
             ray_directions: flat(axis.ray_directions),
             ray_samples: flat(axis.ray_samples),

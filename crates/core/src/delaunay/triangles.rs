@@ -64,7 +64,8 @@ impl Delaunay {
     }
 
     /// The same, but only where the half-edge is from the smallest corner of its triangle.
-    fn own_triangles(&self, first: &[u32], progress: &Progress) -> Vec<u32> {
+    #[must_use]
+    pub fn own_triangles(&self, first: &[u32], progress: &Progress) -> Vec<u32> {
         self.stars.map(NONE, progress, |p, triangles| {
             let (star, mut next) = (self.star(p), first[p as usize]);
             for (k, triangle) in triangles.iter_mut().enumerate() {

@@ -1,9 +1,7 @@
 //! The axis, and vertices that no double holds: three points that are nearly in line have a center farther away than the largest number.
 //! They count as infinitely far away, so their edges are rays, or lines.
 
-use crate::parts::GRAIN;
 use crate::point::{Point, sub};
-use rayon::prelude::*;
 
 /// The medial axis of samples.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -12,12 +10,8 @@ pub struct MedialAxis {
     pub vertices: Vec<Point>,
     /// The distance from each vertex to the samples nearest to it.
     pub radii: Vec<f64>,
-    /// Pairs of vertices: to the left and to the right of the Delaunay edge in `samples`.
-    pub edges: Vec<[u32; 2]>,
-    /// The two rows that each edge separates, i < j, sorted.
-    pub samples: Vec<[u32; 2]>,
-    /// Is the edge inside an odd number of rings?
-    pub inner: Vec<bool>,
+    /// The edges, sorted by their samples.
+    pub edges: Vec<Edge>,
     /// The vertex that each unbounded edge starts at.
     pub ray_origins: Vec<u32>,
     /// Its unit direction.
@@ -26,14 +20,34 @@ pub struct MedialAxis {
     pub ray_samples: Vec<[u32; 2]>,
 }
 
+/// An edge of the axis: the Voronoi edge between two samples.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Edge {
+    /// The two rows that it separates, i < j.
+    pub samples: [u32; 2],
+    /// The vertices to the left and to the right of the step from i to j.
+    pub ends: [u32; 2],
+    /// Is it inside an odd number of rings?
+    pub is_inner: bool,
+}
+
+impl Edge {
+    /// The edge between two samples, in any order, with its ends to the left and to the right of the step from one to the other.
+    #[must_use]
+    pub fn new(samples: [u32; 2], ends: [u32; 2], is_inner: bool) -> Self {
+        if samples[0] < samples[1] {
+            return Self { samples, ends, is_inner };
+        }
+        let turned = |[a, b]: [u32; 2]| [b, a];
+        Self { samples: turned(samples), ends: turned(ends), is_inner }
+    }
+}
+
 /// The same axis with finite vertices alone; `place` gives the points by row.
 pub fn at_infinity(axis: MedialAxis, place: impl Fn(u32) -> Point) -> MedialAxis {
     let is_known = |(vertex, radius): (&Point, &f64)| {
         vertex[0].is_finite() & vertex[1].is_finite() & radius.is_finite()
     };
-    if axis.vertices.par_iter().zip(&axis.radii).with_min_len(GRAIN).all(is_known) {
-        return axis;
-    }
     let is_known: Vec<bool> = axis.vertices.iter().zip(&axis.radii).map(is_known).collect();
     let mut near = Near { axis: MedialAxis::default(), rays: Vec::new() };
     let mut numbers = vec![0; is_known.len()];
@@ -42,11 +56,14 @@ pub fn at_infinity(axis: MedialAxis, place: impl Fn(u32) -> Point) -> MedialAxis
     }
     let known = |v: u32| is_known[v as usize].then(|| numbers[v as usize]);
     let ahead = |v: u32, direction: Point| is_ahead(axis.vertices[v as usize], direction);
-    for (k, (&[left, right], &samples)) in axis.edges.iter().zip(&axis.samples).enumerate() {
+    for edge in &axis.edges {
+        let (samples, [left, right]) = (edge.samples, edge.ends);
         let ends = samples.map(&place);
         let (to_left, to_right) = (direction(ends, 1.0), direction(ends, -1.0));
         match (known(left), known(right)) {
-            (Some(left), Some(right)) => near.edge([left, right], samples, axis.inner[k]),
+            (Some(left), Some(right)) => {
+                near.axis.edges.push(Edge { ends: [left, right], ..*edge });
+            }
             (None, Some(right)) => near.rays.push((samples, right, to_left)),
             (Some(left), None) => near.rays.push((samples, left, to_right)),
             (None, None) if ahead(left, to_left) && ahead(right, to_right) => {
@@ -77,12 +94,6 @@ impl Near {
         self.axis.vertices.push(vertex);
         self.axis.radii.push(radius);
         self.axis.vertices.len() as u32 - 1
-    }
-
-    fn edge(&mut self, vertices: [u32; 2], samples: [u32; 2], inner: bool) {
-        self.axis.edges.push(vertices);
-        self.axis.samples.push(samples);
-        self.axis.inner.push(inner);
     }
 
     /// Two opposite rays from the midpoint of two points.

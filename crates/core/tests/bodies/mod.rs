@@ -235,9 +235,10 @@ fn axis(data: &[u8]) {
             .expect("no one cancels");
     assert!(axis.vertices.iter().flatten().chain(&axis.radii).all(|x| x.is_finite()));
     let count = axis.vertices.len() as u32;
-    assert!(axis.edges.iter().flatten().chain(&axis.ray_origins).all(|&v| v < count));
-    assert!(axis.samples.is_sorted() && axis.ray_samples.is_sorted());
-    assert!(axis.samples.iter().all(|edge| edges.binary_search(edge).is_err()));
+    let ends = axis.edges.iter().flat_map(|edge| edge.ends);
+    assert!(ends.chain(axis.ray_origins).all(|v| v < count));
+    assert!(axis.edges.is_sorted_by_key(|edge| edge.samples) && axis.ray_samples.is_sorted());
+    assert!(axis.edges.iter().all(|edge| edges.binary_search(&edge.samples).is_err()));
 }
 
 /// What a tile decides for good, before it has seen the rest, is so in the whole; and what it leaves out is not.
