@@ -86,10 +86,29 @@ pub fn replace<T: Send>(
 
 /// Copies of a `value`, written in parallel; zeros alone come from the system without being written.
 pub fn copies<T: Copy + Send + Sync>(value: T, count: usize) -> Vec<T> {
+    let mut values = Vec::new();
+    extend(&mut values, count, |_| value);
+    values
+}
+
+/// Append the `value` of each number below `count`, in parallel also where the memory for it is new.
+pub fn extend<T: Send>(
+    values: &mut Vec<T>,
+    count: usize,
+    value: impl Fn(usize) -> T + Sync + Send,
+) {
     if count <= GRAIN {
-        return vec![value; count];
+        values.extend((0..count).map(value));
+    } else {
+        values.par_extend((0..count).into_par_iter().with_min_len(GRAIN).map(value));
     }
-    (0..count).into_par_iter().with_min_len(GRAIN).map(|_| value).collect()
+}
+
+/// Give memory back on another thread, if there is one: of a large array that takes milliseconds.
+pub fn give_back<T: Send + 'static>(memory: Vec<T>) {
+    if rayon::current_num_threads() > 1 {
+        rayon::spawn(move || drop(memory));
+    }
 }
 
 /// Do all numbers below `count` fulfill `condition`? One that does not ends the search.
@@ -173,10 +192,21 @@ pub fn scatter<T: Copy + Send + Sync, P: Borrow<[T]> + Sync>(
     buckets: usize,
     bucket: impl Fn(&T) -> usize + Sync,
 ) -> (Vec<T>, Vec<usize>) {
+    let mut all = vec![empty; parts.iter().map(|part| part.borrow().len()).sum()];
+    let counts = scatter_to(&mut all, parts, buckets, bucket);
+    (all, counts)
+}
+
+/// As [`scatter`], to memory for just these items.
+pub fn scatter_to<T: Copy + Send + Sync, P: Borrow<[T]> + Sync>(
+    all: &mut [T],
+    parts: &[P],
+    buckets: usize,
+    bucket: impl Fn(&T) -> usize + Sync,
+) -> Vec<usize> {
     if buckets == 1 {
-        let all = parts.concat();
-        let count = all.len();
-        return (all, vec![count]);
+        all.iter_mut().zip(items(parts)).for_each(|(place, item)| *place = *item);
+        return vec![all.len()];
     }
     let groups: Vec<&[P]> = parts.chunks(parts.len().div_ceil(TASKS).max(1)).collect();
     let mut counts = vec![vec![0; buckets]; groups.len()];
@@ -185,9 +215,8 @@ pub fn scatter<T: Copy + Send + Sync, P: Borrow<[T]> + Sync>(
         items(group).for_each(|item| counts[bucket(item)] += 1);
     });
     let within = |b: usize| counts.iter().map(move |counts| counts[b]);
-    let mut all = vec![empty; parts.iter().map(|part| part.borrow().len()).sum()];
     let mut places: Vec<_> = groups.iter().map(|_| Vec::with_capacity(buckets)).collect();
-    for (k, place) in split(&mut all, (0..buckets).flat_map(within)).into_iter().enumerate() {
+    for (k, place) in split(all, (0..buckets).flat_map(within)).into_iter().enumerate() {
         places[k % groups.len()].push(place.iter_mut());
     }
     each(groups.iter().zip(places).collect(), |_, (group, mut places)| {
@@ -195,7 +224,7 @@ pub fn scatter<T: Copy + Send + Sync, P: Borrow<[T]> + Sync>(
             *places[bucket(item)].next().expect("as many as were counted") = *item;
         });
     });
-    (all, (0..buckets).map(|b| within(b).sum()).collect())
+    (0..buckets).map(|b| within(b).sum()).collect()
 }
 
 /// The items of all `parts`.

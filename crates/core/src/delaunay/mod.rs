@@ -13,6 +13,7 @@ mod zip;
 use crate::error::{Error, Result};
 use crate::exact::predicates::is_left;
 use crate::memory;
+use crate::parts::{copies, give_back};
 use crate::point::Point;
 use crate::progress::{Progress, Stage};
 use crate::space::order::{Grid, Order, order};
@@ -75,8 +76,10 @@ impl Delaunay {
             return Err(Error::TooManyPoints { count: points.len(), limit: MOST_POINTS });
         }
         memory::check(points.len(), BYTES)?;
-        let Order { points: vertices, rows, grid, duplicates, scale } = order(points, progress)?;
-        let (stars, hull) = stars(&vertices, &grid, leaf::MOST, progress)?;
+        let Order { points: vertices, rows, grid, duplicates, scale, memory } =
+            order(points, progress)?;
+        let neighbors = memory.into_flattened();
+        let (stars, hull) = stars(&vertices, &grid, leaf::MOST, neighbors, progress)?;
         Ok(Self { points: vertices, rows, duplicates, scale, input: points.len(), hull, stars })
     }
 
@@ -206,10 +209,13 @@ impl Delaunay {
 }
 
 /// Triangulate the vertices `points`, sorted by their codes on `grid`; return their stars and the hull.
+///
+/// `neighbors` is memory for as many half-edges as there can be, with anything in it.
 fn stars(
     points: &[Point],
     grid: &Grid,
     leaf: usize,
+    neighbors: Vec<u32>,
     progress: &Progress,
 ) -> Result<(Stars, Vec<u32>)> {
     let count = points.len();
@@ -218,19 +224,21 @@ fn stars(
         return Leaf::with(points, grid, |leaf, extremes| {
             progress.advance(count)?;
             let (first, degrees) = leaf.origins(count);
-            Stars::collect(leaf, first, degrees, extremes.left.edge, progress)
+            Stars::collect(leaf, first, degrees, extremes.left.edge, neighbors, progress)
         });
     }
     let mut slots = vec![HalfEdge::default(); SLOTS * count];
-    let mut first = vec![0; count];
-    let mut offsets = vec![0; count + 1];
+    let mut first = copies(0, count);
+    let mut offsets = copies(0, count + 1);
     let mut hull = NONE;
     if count > 0 {
         let mut graph = Slots::new(points, 0, &mut slots, [&mut first, &mut offsets[1..]]);
         let vertices = Vertices { points, grid, leaf };
         hull = triangulate(vertices, &mut graph, progress)?.left.edge;
     }
-    Stars::collect(slots.as_slice(), first, offsets, hull, progress)
+    let made = Stars::collect(slots.as_slice(), first, offsets, hull, neighbors, progress);
+    give_back(slots);
+    made
 }
 
 #[cfg(test)]

@@ -78,7 +78,7 @@ impl Stars {
     /// Collect the stars of a finished graph, and its hull.
     ///
     /// `first` holds a half-edge from each vertex, `offsets` a 0 and then the number of half-edges from each vertex. `hull` is a
-    /// half-edge of the hull, the outside to its right, or `NONE` if there are no edges.
+    /// half-edge of the hull, the outside to its right, or `NONE` if there are no edges. `neighbors` is memory for all half-edges or more.
     ///
     /// # Errors
     /// A cancelled `progress`.
@@ -87,6 +87,7 @@ impl Stars {
         mut first: Vec<R::Index>,
         mut offsets: Vec<u32>,
         hull: R::Index,
+        mut neighbors: Vec<u32>,
         progress: &Progress,
     ) -> Result<(Self, Vec<u32>)> {
         progress.enter(Stage::Stars, first.len())?;
@@ -100,7 +101,8 @@ impl Stars {
         for &vertex in &hull {
             on_hull[vertex as usize] = true;
         }
-        let mut neighbors = vec![0; end as usize];
+        neighbors.truncate(end as usize);
+        neighbors.shrink_to_fit();
         if end > 0 {
             let parts = split(&mut neighbors, grains(&offsets));
             let parts = parts.into_iter().zip(first.chunks(GRAIN)).collect();

@@ -126,8 +126,10 @@ fn a_leaf_too_small_for_a_cell_leaves_it_to_its_halves() {
     for points in [scatter.points(3000), scatter.lattice(700, 30.0), scatter.lattice(900, 40.0)] {
         let sorted = order(&points, &Progress::default()).expect("points within range");
         let with = |leaf| {
-            let (stars, hull) = stars(&sorted.points, &sorted.grid, leaf, &Progress::default())
-                .expect("no one cancels");
+            let memory = sorted.memory.clone().into_flattened();
+            let (stars, hull) =
+                stars(&sorted.points, &sorted.grid, leaf, memory, &Progress::default())
+                    .expect("no one cancels");
             // Where a star starts depends on the memory; its round does not.
             let star = |v| {
                 let mut neighbors = stars.star(v).neighbors.to_vec();

@@ -31,6 +31,16 @@ pub struct Order {
     pub duplicates: Vec<[u32; 2]>,
     /// The power of two that coordinates were multiplied by.
     pub scale: f64,
+    /// What the keys were in, two of them for each point, to be used again: to have memory costs as much as to sort in it.
+    pub memory: Vec<Key>,
+}
+
+/// The code of a point, upper half first, and its row.
+pub type Key = [u32; 3];
+
+#[inline]
+fn code([high, low, _]: &Key) -> u64 {
+    u64::from(*high) << u32::BITS | u64::from(*low)
 }
 
 /// Sort `points` along the Z-order curve and set repeated ones aside.
@@ -45,19 +55,20 @@ pub fn order(points: &[Point], progress: &Progress) -> Result<Order> {
         check_scaling(points, scale, bounds.largest())?;
     }
     let grid = Grid::around(&bounds, scale);
-    let (mut keys, is_tied) = sorted_keys(points, &grid, scale, progress)?;
-    let duplicates = if is_tied { set_duplicates_aside(&mut keys, points) } else { Vec::new() };
+    let mut memory = keys(points, &grid, scale, progress)?;
+    let (unsorted, keys) = memory.split_at_mut(points.len());
+    let is_tied = sort(unsorted, keys, points, progress)?;
+    let duplicates = if is_tied { set_duplicates_aside(keys, points) } else { Vec::new() };
+    let keys = &keys[..points.len() - duplicates.len()];
     Ok(Order {
-        points: parts::collect(&keys, |key| points[key.1 as usize].map(|x| x * scale)),
-        rows: parts::collect(&keys, |key| key.1),
+        points: parts::collect(keys, |&[.., row]| points[row as usize].map(|x| x * scale)),
+        rows: parts::collect(keys, |&[.., row]| row),
         grid,
         duplicates,
         scale,
+        memory,
     })
 }
-
-/// The code and the row of a point.
-type Key = (u64, u32);
 
 /// A power of two that brings the coordinates to where no product of the filters overflows.
 fn scale(largest: f64) -> f64 {
@@ -123,58 +134,70 @@ fn spread(x: u32) -> u64 {
     x
 }
 
-/// The keys of all points, by code; equal ones by x, y, then row. And are there equal ones?
+/// The keys of all points, and room for them once more.
+fn keys(points: &[Point], grid: &Grid, scale: f64, progress: &Progress) -> Result<Vec<Key>> {
+    let key = |row: usize| {
+        if !progress.goes_on() {
+            return [0; 3];
+        }
+        let code = grid.code(points[row].map(|x| x * scale));
+        [(code >> u32::BITS) as u32, code as u32, row as u32]
+    };
+    let mut keys = Vec::with_capacity(2 * points.len());
+    parts::extend(&mut keys, points.len(), key);
+    parts::extend(&mut keys, points.len(), |_| [0; 3]);
+    progress.advance(points.len())?;
+    Ok(keys)
+}
+
+/// Move the keys `unsorted` to `keys`, by code; equal ones by x, y, then row. Are there equal ones?
 ///
 /// One pass into buckets by the leading bits, then each bucket by comparison.
-fn sorted_keys(
-    points: &[Point],
-    grid: &Grid,
-    scale: f64,
-    progress: &Progress,
-) -> Result<(Vec<Key>, bool)> {
-    let key = |row: usize| (grid.code(points[row].map(|x| x * scale)), row as u32);
-    let keys = parts::map(points.len(), (0, 0), progress, key)?;
+fn sort(unsorted: &[Key], keys: &mut [Key], points: &[Point], progress: &Progress) -> Result<bool> {
     let buckets = (points.len() / BUCKET).next_power_of_two().min(MOST_BUCKETS);
     // Of a single one this is not asked.
-    let bucket = |key: &Key| (key.0 >> (64 - buckets.trailing_zeros())) as usize;
-    let parts: Vec<&[Key]> = keys.chunks(GRAIN).collect();
-    let (mut keys, counts) = parts::scatter(&parts, (0, 0), buckets, bucket);
+    let bucket = |key: &Key| (code(key) >> (64 - buckets.trailing_zeros())) as usize;
+    let parts: Vec<&[Key]> = unsorted.chunks(GRAIN).collect();
+    let counts = parts::scatter_to(keys, &parts, buckets, bucket);
     progress.advance(0)?;
     let tied = AtomicBool::new(false);
-    let parts = split(&mut keys, counts.chunks(BUCKETS).map(|counts| counts.iter().sum()));
+    let parts = split(keys, counts.chunks(BUCKETS).map(|counts| counts.iter().sum()));
     try_each(parts.into_iter().zip(counts.chunks(BUCKETS)).collect(), |_, (part, counts)| {
         for bucket in split(part, counts.iter().copied()) {
-            bucket.sort_unstable_by_key(|key| key.0);
+            bucket.sort_unstable_by_key(code);
         }
         if sort_runs(part, points) {
             tied.store(true, Relaxed);
         }
         progress.advance(part.len())
     })?;
-    Ok((keys, tied.into_inner()))
+    Ok(tied.into_inner())
 }
 
 /// Sort each run of equal codes by x, y, then row. Is there any?
 fn sort_runs(keys: &mut [Key], points: &[Point]) -> bool {
     let mut is_tied = false;
-    let at = |key: &Key| &points[key.1 as usize];
-    for run in keys.chunk_by_mut(|a, b| a.0 == b.0).filter(|run| run.len() > 1) {
-        run.sort_unstable_by(|a, b| lexicographic(at(a), at(b)).then(a.1.cmp(&b.1)));
+    let at = |&[.., row]: &Key| &points[row as usize];
+    for run in keys.chunk_by_mut(|a, b| code(a) == code(b)).filter(|run| run.len() > 1) {
+        run.sort_unstable_by(|a, b| lexicographic(at(a), at(b)).then(a[2].cmp(&b[2])));
         is_tied = true;
     }
     is_tied
 }
 
-/// Take all but the first row of each run of equal points out; return them with that first row, sorted.
-fn set_duplicates_aside(keys: &mut Vec<Key>, points: &[Point]) -> Vec<[u32; 2]> {
+/// Move the first row of each run of equal points to the front; return the others with that first row, sorted.
+fn set_duplicates_aside(keys: &mut [Key], points: &[Point]) -> Vec<[u32; 2]> {
     let mut duplicates = Vec::new();
-    keys.dedup_by(|&mut (code, row), &mut (first_code, first)| {
-        let is_equal = code == first_code && points[row as usize] == points[first as usize];
-        if is_equal {
+    let mut count = 1;
+    for k in 1..keys.len() {
+        let ([.., first], [.., row]) = (keys[count - 1], keys[k]);
+        if points[row as usize] == points[first as usize] {
             duplicates.push([row, first]);
+        } else {
+            keys[count] = keys[k];
+            count += 1;
         }
-        is_equal
-    });
+    }
     duplicates.sort_unstable();
     duplicates
 }
