@@ -5,15 +5,17 @@
 //! Triangulations", Algorithmica 2 (1987). The cuts are those of the Z-order curve, so they depend on the
 //! points alone, and the halves, which share nothing, can be triangulated at the same time.
 
-use super::hull::{Cut, Extremes, HullVertex};
+use super::hull::{Cut, Extremes};
 use super::leaf::Leaf;
-use super::rings::{Index, NONE};
-use super::slots::{SLOTS, Slots};
+use super::settled::open_vertices;
+use super::slots::Slots;
 use super::zip::merge;
 use crate::error::Result;
 use crate::point::Point;
 use crate::progress::Progress;
+use crate::space::bounds::Bounds;
 use crate::space::order::Grid;
+use std::ops::Range;
 
 /// The vertices of all cells.
 #[derive(Clone, Copy)]
@@ -26,6 +28,18 @@ pub struct Vertices<'a> {
     pub leaf: usize,
 }
 
+impl Vertices<'_> {
+    /// Is no other vertex in the rectangle around those of `range`? It holds no others than these if no code is on both sides of an end.
+    fn is_cell(&self, range: &Range<usize>) -> bool {
+        let parts_codes = |at: usize| {
+            let codes = [at - 1, at].map(|v| self.grid.code(self.points[v]));
+            codes[0] != codes[1]
+        };
+        (range.start == 0 || parts_codes(range.start))
+            && (range.end == self.points.len() || parts_codes(range.end))
+    }
+}
+
 /// Triangulate the vertices of `graph`, which has no edges yet.
 pub fn triangulate(
     vertices: Vertices<'_>,
@@ -35,9 +49,10 @@ pub fn triangulate(
     let range = graph.range();
     let points = &vertices.points[range.clone()];
     if range.len() <= vertices.leaf {
+        let bounds = if vertices.is_cell(&range) { Bounds::of(points) } else { Bounds::EMPTY };
         let extremes = Leaf::with(points, vertices.grid, |leaf, extremes| {
-            graph.load(leaf);
-            extremes.map(|vertex| globally(vertex, range.start))
+            let is_open = open_vertices(leaf, points.len(), extremes.left.edge, &bounds);
+            graph.load(leaf, extremes, &is_open)
         });
         progress.advance(range.len())?;
         return Ok(extremes);
@@ -52,10 +67,4 @@ pub fn triangulate(
     graph.reclaim(free);
     progress.advance(0)?;
     Ok(merge(graph, a?, b?, cut))
-}
-
-/// A vertex of the hull of a leaf whose first vertex is number `start`, in the numbers of the whole.
-fn globally(HullVertex { vertex, edge }: HullVertex<u16>, start: usize) -> HullVertex<u32> {
-    let edge = if edge == u16::NONE { NONE } else { (SLOTS * start) as u32 + u32::from(edge) };
-    HullVertex { vertex: start as u32 + u32::from(vertex), edge }
 }

@@ -5,6 +5,7 @@ mod hull;
 mod leaf;
 mod rings;
 mod sanity;
+mod settled;
 mod slots;
 mod stars;
 mod triangles;
@@ -13,14 +14,14 @@ mod zip;
 use crate::error::{Error, Result};
 use crate::exact::predicates::is_left;
 use crate::memory;
-use crate::parts::{copies, give_back};
+use crate::parts::copies;
 use crate::point::Point;
 use crate::progress::{Progress, Stage};
 use crate::space::order::{Grid, Order, order};
 use divide::{Vertices, triangulate};
 use leaf::Leaf;
 pub use rings::NONE;
-use slots::{HalfEdge, SLOTS, Slots};
+use slots::{Memory, SLOTS, Slots};
 pub use stars::{Star, Stars};
 use std::ops::Range;
 pub use triangles::{triangle_parts, vertices_of_part};
@@ -227,17 +228,17 @@ fn stars(
             Stars::collect(leaf, first, degrees, extremes.left.edge, neighbors, progress)
         });
     }
-    let mut slots = vec![HalfEdge::default(); SLOTS * count];
+    let mut memory = Memory::new(count);
     let mut first = copies(0, count);
     let mut offsets = copies(0, count + 1);
     let mut hull = NONE;
     if count > 0 {
-        let mut graph = Slots::new(points, 0, &mut slots, [&mut first, &mut offsets[1..]]);
+        let mut graph = Slots::on(points, &mut memory, [&mut first, &mut offsets[1..]]);
         let vertices = Vertices { points, grid, leaf };
         hull = triangulate(vertices, &mut graph, progress)?.left.edge;
     }
-    let made = Stars::collect(slots.as_slice(), first, offsets, hull, neighbors, progress);
-    give_back(slots);
+    let made = Stars::collect(&memory, first, offsets, hull, neighbors, progress);
+    memory.give_back();
     made
 }
 

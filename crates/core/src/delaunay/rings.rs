@@ -49,6 +49,36 @@ pub trait Rings {
     fn origin(&self, e: Self::Index) -> Self::Index {
         self.destination(e.twin())
     }
+
+    /// Write the neighbors of `vertex`, counter-clockwise from the one that `e` leads to, to `star`, which has room for just these.
+    #[inline]
+    fn write_star(&self, _vertex: usize, e: Self::Index, star: &mut [u32])
+    where
+        Self::Index: Into<u32>,
+    {
+        self.write_ring(e, star);
+    }
+
+    /// Write where the half-edges around an origin lead to, counter-clockwise from `e` on.
+    #[inline]
+    fn write_ring(&self, mut e: Self::Index, star: &mut [u32])
+    where
+        Self::Index: Into<u32>,
+    {
+        for neighbor in star {
+            *neighbor = self.destination(e).into();
+            e = self.next(e);
+        }
+    }
+}
+
+/// The half-edges of the hull from `start` on, counter-clockwise, the outside to their right; none if there is no `start`.
+pub fn hull_edges<R: Rings + ?Sized>(graph: &R, start: R::Index) -> impl Iterator<Item = R::Index> {
+    let first = (start != R::Index::NONE).then_some(start);
+    std::iter::successors(first, move |e| {
+        let next = graph.next(e.twin());
+        (next != start).then_some(next)
+    })
 }
 
 /// A planar graph of points at work.

@@ -1,7 +1,9 @@
 //! The graph of any number of vertices, in memory that the halves of a cell share out among them.
 
+use super::hull::{Extremes, HullVertex};
 use super::leaf::Leaf;
 use super::rings::{Graph, Index, NONE, Rings};
+use crate::parts::{copies, give_back};
 use crate::point::Point;
 use std::ops::Range;
 
@@ -15,21 +17,54 @@ const DESTINATION: usize = 0;
 const NEXT: usize = 1;
 const PREV: usize = 2;
 
-/// Half-edges numbered from 0.
-impl Rings for [HalfEdge] {
+/// Slots that the star of a settled vertex of this degree takes.
+fn slots_of_star(degree: u32) -> usize {
+    degree.div_ceil(3) as usize
+}
+
+/// Memory for the graph of all vertices.
+pub struct Memory {
+    half_edges: Vec<HalfEdge>,
+    /// Is it known of a vertex that no merge touches it? Then its neighbors are in the slots from its `first` on.
+    is_settled: Vec<bool>,
+}
+
+impl Memory {
+    /// For the graph of `count` vertices.
+    pub fn new(count: usize) -> Self {
+        let half_edges = vec![HalfEdge::default(); SLOTS * count];
+        Self { half_edges, is_settled: copies(false, count) }
+    }
+
+    /// Give it back on another thread, if there is one.
+    pub fn give_back(self) {
+        give_back(self.half_edges);
+    }
+}
+
+impl Rings for Memory {
     type Index = u32;
 
     #[inline]
     fn destination(&self, e: u32) -> u32 {
-        self[e as usize][DESTINATION]
+        self.half_edges[e as usize][DESTINATION]
     }
     #[inline]
     fn next(&self, e: u32) -> u32 {
-        self[e as usize][NEXT]
+        self.half_edges[e as usize][NEXT]
     }
     #[inline]
     fn prev(&self, e: u32) -> u32 {
-        self[e as usize][PREV]
+        self.half_edges[e as usize][PREV]
+    }
+    #[inline]
+    fn write_star(&self, vertex: usize, first: u32, star: &mut [u32]) {
+        if self.is_settled[vertex] {
+            let neighbors = self.half_edges[first as usize..].as_flattened();
+            star.copy_from_slice(&neighbors[..star.len()]);
+        } else {
+            self.write_ring(first, star);
+        }
     }
 }
 
@@ -44,6 +79,7 @@ pub struct Slots<'a> {
     first: &'a mut [u32],
     /// The number of half-edges from each vertex of the range.
     degrees: &'a mut [u32],
+    is_settled: &'a mut [bool],
     free: FreeSlots,
 }
 
@@ -56,17 +92,27 @@ pub struct FreeSlots {
 }
 
 impl<'a> Slots<'a> {
+    /// A graph without edges on all `points`.
+    pub fn on(
+        points: &'a [Point],
+        memory: &'a mut Memory,
+        of_vertices: [&'a mut [u32]; 2],
+    ) -> Self {
+        Self::new(points, 0, &mut memory.half_edges, of_vertices, &mut memory.is_settled)
+    }
+
     /// A graph without edges on the vertices from `start`, which are among `points`.
-    pub fn new(
+    fn new(
         points: &'a [Point],
         start: usize,
         half_edges: &'a mut [HalfEdge],
         [first, degrees]: [&'a mut [u32]; 2],
+        is_settled: &'a mut [bool],
     ) -> Self {
         let begin = SLOTS * start;
         let fresh = begin as u32..(begin + half_edges.len()) as u32;
         let free = FreeSlots { chain: NONE, fresh, more: Vec::new() };
-        Self { points, start, half_edges, first, degrees, free }
+        Self { points, start, half_edges, first, degrees, is_settled, free }
     }
 
     /// The vertices.
@@ -80,33 +126,85 @@ impl<'a> Slots<'a> {
         let (low, high) = self.half_edges.split_at_mut(SLOTS * count);
         let (low_first, high_first) = self.first.split_at_mut(count);
         let (low_degrees, high_degrees) = self.degrees.split_at_mut(count);
+        let (low_settled, high_settled) = self.is_settled.split_at_mut(count);
         [
-            Slots::new(self.points, self.start, low, [low_first, low_degrees]),
-            Slots::new(self.points, middle, high, [high_first, high_degrees]),
+            Slots::new(self.points, self.start, low, [low_first, low_degrees], low_settled),
+            Slots::new(self.points, middle, high, [high_first, high_degrees], high_settled),
         ]
     }
 }
 
 impl Slots<'_> {
-    /// Take the graph of `leaf`, which is on the same vertices, over.
-    pub fn load(&mut self, leaf: &Leaf) {
-        let (begin, start) = (self.free.fresh.start, self.start as u32);
-        for e in 0..leaf.used() {
-            let slot = begin + u32::from(e);
-            if leaf.is_free(e) {
-                if e % 2 == 0 {
-                    self.push_free(slot);
-                }
-                continue;
+    /// Take the graph of `leaf`, which is on the same vertices, over; return the extremes of its hull in the numbers of the whole.
+    ///
+    /// Vertices that are not open are settled: their stars are written down, and half-edges between two of them are not kept.
+    pub fn load(
+        &mut self,
+        leaf: &Leaf,
+        extremes: Extremes<u16>,
+        is_open: &[bool],
+    ) -> Extremes<u32> {
+        let start = self.start as u32;
+        let begin = self.free.fresh.start;
+        let mut end = begin;
+        let mut pairs = vec![NONE; leaf.used() as usize / 2];
+        let mut around = vec![u16::NONE; is_open.len()];
+        self.degrees.fill(0);
+        let mut dropped = 0;
+        for e in (0..leaf.used()).step_by(2).filter(|&e| !leaf.is_free(e)) {
+            let ends = [e, e.twin()].map(|half| (half, leaf.origin(half) as usize));
+            for (half, origin) in ends {
+                around[origin] = half;
+                self.degrees[origin] += 1;
             }
-            let origin = leaf.origin(e) as usize;
-            self.first[origin] = slot;
-            self.degrees[origin] += 1;
-            let [destination, next, prev] =
-                [leaf.destination(e), leaf.next(e), leaf.prev(e)].map(u32::from);
-            self.half_edges[e as usize] = [destination + start, next + begin, prev + begin];
+            if ends.iter().any(|&(_, origin)| is_open[origin]) {
+                pairs[e as usize / 2] = end;
+                end += 2;
+            } else {
+                dropped += 1;
+            }
         }
-        self.free.fresh.start = begin + u32::from(leaf.used());
+        let Some(place) = self.room(is_open, dropped) else {
+            return self.load(leaf, extremes, &vec![true; is_open.len()]);
+        };
+        self.settle(leaf, &around, is_open, place);
+        self.free.fresh = end..begin + place as u32;
+        let number = |e: u16| match e {
+            u16::NONE => NONE,
+            e => pairs[e as usize / 2] | u32::from(e & 1),
+        };
+        for e in (0..leaf.used()).filter(|&e| number(e) != NONE) {
+            let [next, prev] = [leaf.next(e), leaf.prev(e)].map(number);
+            *self.slot_mut(number(e)) = [start + u32::from(leaf.destination(e)), next, prev];
+        }
+        for (v, _) in is_open.iter().enumerate().filter(|&(_, &is_open)| is_open) {
+            self.first[v] = number(around[v]);
+        }
+        extremes.map(|HullVertex { vertex, edge }| HullVertex {
+            vertex: start + u32::from(vertex),
+            edge: number(edge),
+        })
+    }
+
+    /// Where to write stars of settled vertices from, if they take no more slots than the pairs of half-edges that are `dropped` for them.
+    fn room(&self, is_open: &[bool], dropped: usize) -> Option<usize> {
+        let settled = self.degrees.iter().zip(is_open).filter(|&(_, &is_open)| !is_open);
+        let slots: usize = settled.map(|(&degree, _)| slots_of_star(degree)).sum();
+        let slots = slots.next_multiple_of(2);
+        (slots <= 2 * dropped).then(|| self.half_edges.len() - slots)
+    }
+
+    /// Write the stars of the settled vertices from slot number `place` of this range on.
+    fn settle(&mut self, leaf: &Leaf, around: &[u16], is_open: &[bool], mut place: usize) {
+        for (v, &e) in around.iter().enumerate().filter(|&(v, _)| !is_open[v]) {
+            let slots = &mut self.half_edges[place..place + slots_of_star(self.degrees[v])];
+            let star = &mut slots.as_flattened_mut()[..self.degrees[v] as usize];
+            leaf.write_star(v, e, star);
+            star.iter_mut().for_each(|neighbor| *neighbor += self.start as u32);
+            self.is_settled[v] = true;
+            self.first[v] = (SLOTS * self.start + place) as u32;
+            place += slots_of_star(self.degrees[v]);
+        }
     }
 
     /// Have the free slots that both halves left.

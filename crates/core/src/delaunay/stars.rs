@@ -3,7 +3,7 @@
 //! This is all that selection needs: a wedge, two successive neighbors of a vertex, is a triangle, and its
 //! circumcenter a corner of the vertex's Voronoi cell.
 
-use super::rings::{Index, Rings};
+use super::rings::{Rings, hull_edges};
 use crate::error::Result;
 use crate::parts::{each, short, split, try_each};
 use crate::progress::{Progress, Stage};
@@ -106,8 +106,13 @@ impl Stars {
         if end > 0 {
             let parts = split(&mut neighbors, grains(&offsets));
             let parts = parts.into_iter().zip(first.chunks(GRAIN)).collect();
-            try_each(parts, |_, (part, first)| {
-                collect_part(graph, first, part);
+            try_each(parts, |k, (mut part, first)| {
+                for (v, &e) in (k * GRAIN..).zip(first) {
+                    let degree = (offsets[v + 1] - offsets[v]) as usize;
+                    let (star, rest) = part.split_at_mut(degree);
+                    graph.write_star(v, e, star);
+                    part = rest;
+                }
                 progress.advance(first.len())
             })?;
         }
@@ -176,15 +181,10 @@ fn walk_hull<R: Rings<Index: Into<u32>> + ?Sized>(
     first: &mut [R::Index],
 ) -> Vec<u32> {
     let mut hull = Vec::new();
-    let mut e = start;
-    while e != R::Index::NONE {
+    for e in hull_edges(graph, start) {
         let vertex = graph.origin(e).into();
         hull.push(vertex);
         first[vertex as usize] = e;
-        e = graph.next(e.twin());
-        if e == start {
-            break;
-        }
     }
     hull
 }
@@ -194,24 +194,4 @@ fn grains(offsets: &[u32]) -> impl Iterator<Item = usize> {
     let last = offsets.len() - 1;
     let end = move |start: usize| offsets[(start + GRAIN).min(last)];
     (0..last).step_by(GRAIN).map(move |start| (end(start) - offsets[start]) as usize)
-}
-
-/// Write the stars of the vertices with the half-edges `first`, one each, one after another.
-fn collect_part<R: Rings<Index: Into<u32>> + ?Sized>(
-    graph: &R,
-    first: &[R::Index],
-    part: &mut [u32],
-) {
-    let mut end = part.iter_mut();
-    for &start in first {
-        let mut e = start;
-        loop {
-            let neighbor = end.next().expect("as many neighbors as half-edges");
-            *neighbor = graph.destination(e).into();
-            e = graph.next(e);
-            if e == start {
-                break;
-            }
-        }
-    }
 }
