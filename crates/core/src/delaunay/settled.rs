@@ -10,8 +10,8 @@ use crate::exact::filter::UNDERFLOW;
 use crate::point::{Point, cross, dot, sub};
 use crate::space::bounds::Bounds;
 
-/// Which of the `count` vertices of `leaf` are on its hull, which `hull` is a half-edge of, or on a triangle whose disk may reach out of
-/// `bounds`.
+/// Which of the `count` vertices of `leaf` a merge may touch, where all others are out of `bounds`: those on its hull, which `hull` is a half-edge
+/// of, and those of the triangles whose disk may reach out, and that hang together with it.
 pub fn open_vertices(leaf: &Leaf, count: usize, hull: u16, bounds: &Bounds) -> Vec<bool> {
     let mut is_open = vec![count == 1; count];
     // Whether the triangle to the left of a half-edge has been looked at.
@@ -27,9 +27,13 @@ pub fn open_vertices(leaf: &Leaf, count: usize, hull: u16, bounds: &Bounds) -> V
         }
         let sides = [e, leaf.prev(e.twin()), leaf.next(e).twin()];
         let corners = sides.map(|side| leaf.origin(side));
-        sides.iter().for_each(|&side| is_seen[side as usize] = true);
+        for side in sides {
+            is_seen[side as usize] = true;
+        }
         if !holds_disk(bounds, corners.map(|corner| leaf.point(corner))) {
-            corners.iter().for_each(|&corner| is_open[corner as usize] = true);
+            for corner in corners {
+                is_open[corner as usize] = true;
+            }
             front.extend(sides.map(Index::twin));
         }
     }

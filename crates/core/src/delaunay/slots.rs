@@ -22,6 +22,12 @@ fn slots_of_star(degree: u32) -> usize {
     degree.div_ceil(3) as usize
 }
 
+/// The slot of half-edge `e` of a leaf, the first of whose pairs are at `pairs`; `NONE` if it is not kept.
+#[inline]
+fn number(pairs: &[u32], e: u16) -> u32 {
+    if e == u16::NONE { NONE } else { pairs[e as usize / 2] | u32::from(e & 1) }
+}
+
 /// Memory for the graph of all vertices.
 pub struct Memory {
     half_edges: Vec<HalfEdge>,
@@ -145,19 +151,18 @@ impl Slots<'_> {
         is_open: &[bool],
     ) -> Extremes<u32> {
         let start = self.start as u32;
-        let begin = self.free.fresh.start;
-        let mut end = begin;
+        let mut end = self.free.fresh.start;
         let mut pairs = vec![NONE; leaf.used() as usize / 2];
         let mut around = vec![u16::NONE; is_open.len()];
         self.degrees.fill(0);
         let mut dropped = 0;
         for e in (0..leaf.used()).step_by(2).filter(|&e| !leaf.is_free(e)) {
-            let ends = [e, e.twin()].map(|half| (half, leaf.origin(half) as usize));
-            for (half, origin) in ends {
+            let origins = [e, e.twin()].map(|half| leaf.origin(half) as usize);
+            for (origin, half) in origins.into_iter().zip([e, e.twin()]) {
                 around[origin] = half;
                 self.degrees[origin] += 1;
             }
-            if ends.iter().any(|&(_, origin)| is_open[origin]) {
+            if origins.into_iter().any(|origin| is_open[origin]) {
                 pairs[e as usize / 2] = end;
                 end += 2;
             } else {
@@ -167,31 +172,37 @@ impl Slots<'_> {
         let Some(place) = self.room(is_open, dropped) else {
             return self.load(leaf, extremes, &vec![true; is_open.len()]);
         };
+        self.free.fresh = end..self.free.fresh.start + place as u32;
         self.settle(leaf, &around, is_open, place);
-        self.free.fresh = end..begin + place as u32;
-        let number = |e: u16| match e {
-            u16::NONE => NONE,
-            e => pairs[e as usize / 2] | u32::from(e & 1),
-        };
-        for e in (0..leaf.used()).filter(|&e| number(e) != NONE) {
-            let [next, prev] = [leaf.next(e), leaf.prev(e)].map(number);
-            *self.slot_mut(number(e)) = [start + u32::from(leaf.destination(e)), next, prev];
-        }
-        for (v, _) in is_open.iter().enumerate().filter(|&(_, &is_open)| is_open) {
-            self.first[v] = number(around[v]);
-        }
+        self.keep(leaf, &around, is_open, &pairs);
         extremes.map(|HullVertex { vertex, edge }| HullVertex {
             vertex: start + u32::from(vertex),
-            edge: number(edge),
+            edge: number(&pairs, edge),
         })
     }
 
-    /// Where to write stars of settled vertices from, if they take no more slots than the pairs of half-edges that are `dropped` for them.
+    /// Where to write stars of settled vertices from, if they take no more slots than the pairs of half-edges that are `dropped` for them:
+    /// then all other edges of a planar graph still fit.
     fn room(&self, is_open: &[bool], dropped: usize) -> Option<usize> {
         let settled = self.degrees.iter().zip(is_open).filter(|&(_, &is_open)| !is_open);
         let slots: usize = settled.map(|(&degree, _)| slots_of_star(degree)).sum();
         let slots = slots.next_multiple_of(2);
         (slots <= 2 * dropped).then(|| self.half_edges.len() - slots)
+    }
+
+    /// Write the half-edges of `leaf` that are kept to the slots of `pairs`.
+    fn keep(&mut self, leaf: &Leaf, around: &[u16], is_open: &[bool], pairs: &[u32]) {
+        let start = self.start as u32;
+        for (k, _) in pairs.iter().enumerate().filter(|&(_, &pair)| pair != NONE) {
+            for e in [2 * k as u16, 2 * k as u16 + 1] {
+                let [next, prev] = [leaf.next(e), leaf.prev(e)].map(|other| number(pairs, other));
+                let destination = start + u32::from(leaf.destination(e));
+                *self.slot_mut(number(pairs, e)) = [destination, next, prev];
+            }
+        }
+        for (v, _) in is_open.iter().enumerate().filter(|&(_, &is_open)| is_open) {
+            self.first[v] = number(pairs, around[v]);
+        }
     }
 
     /// Write the stars of the settled vertices from slot number `place` of this range on.
@@ -200,7 +211,9 @@ impl Slots<'_> {
             let slots = &mut self.half_edges[place..place + slots_of_star(self.degrees[v])];
             let star = &mut slots.as_flattened_mut()[..self.degrees[v] as usize];
             leaf.write_star(v, e, star);
-            star.iter_mut().for_each(|neighbor| *neighbor += self.start as u32);
+            for neighbor in star {
+                *neighbor += self.start as u32;
+            }
             self.is_settled[v] = true;
             self.first[v] = (SLOTS * self.start + place) as u32;
             place += slots_of_star(self.degrees[v]);

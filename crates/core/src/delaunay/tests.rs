@@ -123,7 +123,18 @@ fn close_clusters_that_share_a_code_are_triangulated() {
 #[test]
 fn a_leaf_too_small_for_a_cell_leaves_it_to_its_halves() {
     let mut scatter = Scatter(Xorshift(11));
-    for points in [scatter.points(3000), scatter.lattice(700, 30.0), scatter.lattice(900, 40.0)] {
+    let rings = |k: u32| {
+        let ((sin, cos), radius) = (f64::from(k).sin_cos(), 1.0 + f64::from(k % 7));
+        [radius * cos + f64::from(k % 5), radius * sin]
+    };
+    let sets = [
+        scatter.points(3000),
+        scatter.points(8000),
+        scatter.lattice(700, 30.0),
+        scatter.lattice(8000, 90.0),
+        (0..6000).map(rings).collect(),
+    ];
+    for points in sets {
         let sorted = order(&points, &Progress::default()).expect("points within range");
         let with = |leaf| {
             let memory = sorted.memory.clone().into_flattened();
@@ -140,7 +151,7 @@ fn a_leaf_too_small_for_a_cell_leaves_it_to_its_halves() {
             ((0..sorted.points.len() as u32).map(star).collect::<Vec<_>>(), hull)
         };
         let whole = with(leaf::MOST);
-        for leaf in [1, 2, 3, 8, 100, 2000] {
+        for leaf in [1, 2, 3, 8, 30, 100, 500, 2000] {
             assert_eq!(whole, with(leaf));
         }
     }
