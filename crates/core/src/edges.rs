@@ -1,6 +1,6 @@
 //! Edges as pairs of input rows, in the one canonical order, and their parallel selection.
 
-use crate::delaunay::{Delaunay, Edge};
+use crate::delaunay::{Delaunay, Edge, Packed};
 use crate::error::Result;
 use crate::memory;
 use crate::parts::{GRAIN, in_parts, scatter, short, split, try_each};
@@ -48,7 +48,8 @@ pub fn select_screened<S>(
         for few in short(vertices, progress) {
             let count = delaunay.write_edges_from(few, &mut edges);
             let passed = pass(&mut edges[..count], &screen);
-            let edges = passed.iter().filter(|&&edge| keep(&mut memory, edge));
+            let edges = passed.iter().map(|&edge| Edge::from(edge));
+            let edges = edges.filter(|&edge| keep(&mut memory, edge));
             kept.extend(edges.map(|edge| rows(delaunay, edge.p, edge.q)));
         }
         kept
@@ -57,12 +58,12 @@ pub fn select_screened<S>(
 }
 
 /// Move the edges that pass `screen` to the front; return them.
-fn pass(edges: &mut [Edge], screen: impl Fn(Edge) -> bool) -> &[Edge] {
+fn pass(edges: &mut [Packed], screen: impl Fn(Edge) -> bool) -> &[Packed] {
     let mut count = 0;
     for k in 0..edges.len() {
         let edge = edges[k];
         edges[count] = edge;
-        count += usize::from(screen(edge));
+        count += usize::from(screen(edge.into()));
     }
     &edges[..count]
 }
@@ -105,15 +106,21 @@ pub fn sort_by<T: Copy + Default + Send + Sync>(
     edge: impl Fn(&T) -> [u32; 2] + Sync + Send,
     progress: &Progress,
 ) -> Result<Vec<T>> {
-    let width = rows.min(ROWS).max(rows / MOST_TASKS).next_power_of_two();
+    let (width, tasks) = tasks(rows);
     let shift = width.trailing_zeros();
     let bucket = |item: &T| edge(item)[0] as usize >> shift;
-    let (mut items, counts) = scatter(parts, T::default(), (rows >> shift) + 1, bucket);
+    let (mut items, counts) = scatter(parts, T::default(), tasks, bucket);
     try_each(split(&mut items, counts), |k, items| {
         sort_rows(items, k << shift, width, &edge);
         progress.advance(0)
     })?;
     Ok(items)
+}
+
+/// The rows that each task has, a power of two, and the number of tasks.
+fn tasks(rows: usize) -> (usize, usize) {
+    let width = rows.min(ROWS).max(rows / MOST_TASKS).next_power_of_two();
+    (width, rows.div_ceil(width).max(1))
 }
 
 /// Sort the items whose edges are on the `width` rows from `first`.
@@ -143,7 +150,7 @@ mod tests {
 
     #[test]
     fn edges_of_any_number_of_rows_are_sorted() {
-        for rows in [2usize, 100, ROWS - 1, ROWS, ROWS + 1, 5 * ROWS + 3] {
+        for rows in [1usize, 2, 64, 100, ROWS - 1, ROWS, ROWS + 1, 5 * ROWS + 3] {
             let at = |k: usize| (k.wrapping_mul(2_654_435_761) >> 5) % rows;
             let edge = |k| [at(k).min(at(k + 1)) as u32, at(k).max(at(k + 1)) as u32];
             let parts: Vec<Edges> =
@@ -152,5 +159,13 @@ mod tests {
             expected.sort_unstable();
             assert_eq!(sort(&parts, rows), expected);
         }
+    }
+
+    #[test]
+    fn few_rows_are_one_task_though_their_number_is_a_power_of_two() {
+        for rows in [0, 1, 2, 4, 64, 100, ROWS] {
+            assert_eq!(tasks(rows).1, 1);
+        }
+        assert_eq!(tasks(ROWS + 1).1, 2);
     }
 }

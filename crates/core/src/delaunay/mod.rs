@@ -64,6 +64,18 @@ pub struct Edge {
     pub right: Option<u32>,
 }
 
+/// An [`Edge`] in 16 bytes, for loops that move many: p, q, and the apexes to the left and to the right, or [`NONE`].
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Packed([u32; 4]);
+
+impl From<Packed> for Edge {
+    #[inline]
+    fn from(Packed([p, q, left, right]): Packed) -> Self {
+        let [left, right] = [left, right].map(|apex| (apex != NONE).then_some(apex));
+        Self { p, q, left, right }
+    }
+}
+
 impl Delaunay {
     /// Triangulate `points`, which must be finite.
     ///
@@ -185,25 +197,30 @@ impl Delaunay {
     /// Write the edges from each of `vertices` to those of larger number to the front of `edges`; return how many these are.
     ///
     /// Without a branch on which way an edge leads, which no processor foresees.
-    pub fn write_edges_from(&self, vertices: Range<usize>, edges: &mut Vec<Edge>) -> usize {
+    pub fn write_edges_from(&self, vertices: Range<usize>, edges: &mut Vec<Packed>) -> usize {
         let mut count = 0;
+        // Of all vertices in one line none is an apex.
+        let flat = if self.stars.is_flat() { NONE } else { 0 };
         for p in vertices.start as u32..vertices.end as u32 {
-            let star = self.star(p);
-            let Some(last) = star.neighbors.len().checked_sub(1) else { continue };
-            if edges.len() <= count + last {
-                edges.resize(2 * (count + last + 1), Edge { p, q: p, left: None, right: None });
+            let Star { neighbors, on_hull, .. } = self.star(p);
+            let (Some(&first), Some(&last)) = (neighbors.first(), neighbors.last()) else {
+                continue;
+            };
+            let room = count + neighbors.len();
+            if edges.len() < room {
+                edges.resize(2 * room, Packed::default());
             }
+            let edges = &mut edges[..room];
             let mut put = |q, left, right| {
-                edges[count] = Edge { p, q, left, right };
+                edges[count] = Packed([p, q, left | flat, right | flat]);
                 count += usize::from(q > p);
             };
-            let mut right = star.right(0);
-            for pair in star.neighbors.windows(2) {
-                let left = star.spans(pair[1]);
-                put(pair[0], left, right);
-                right = star.spans(pair[0]);
+            let [mut right, after] = if on_hull { [NONE; 2] } else { [last, first] };
+            for pair in neighbors.windows(2) {
+                put(pair[0], pair[1], right);
+                right = pair[0];
             }
-            put(star.neighbors[last], star.left(last), right);
+            put(last, after, right);
         }
         count
     }

@@ -61,12 +61,6 @@ impl<'a> Star<'a> {
         }
     }
 
-    /// The neighbor, if there are triangles at all.
-    #[inline]
-    pub fn spans(&self, neighbor: u32) -> Option<u32> {
-        (!self.flat).then_some(neighbor)
-    }
-
     /// The wedges: pairs of successive neighbors that a triangle spans.
     pub fn wedges(&self) -> impl Iterator<Item = (u32, u32)> + use<'a> {
         let star = *self;

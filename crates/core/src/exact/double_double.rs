@@ -4,7 +4,7 @@
 //! Double-Word Arithmetic", ACM Transactions on Mathematical Software 44 (2017): sums are off by at most 3 u² (1 + 4 u) of their value,
 //! products by 5 u² (J.-M. Muller, L. Rideau, "Formalization of Double-Word Arithmetic", 2022), u = 2⁻⁵³.
 
-use crate::exact::filter::{Approximate, ROUNDING, SLACK};
+use crate::exact::filter::{Approximate, ROUNDING, SLACK, sign_of};
 use crate::exact::number::Number;
 use crate::point::Point;
 use std::cmp::Ordering;
@@ -89,7 +89,7 @@ impl DoubleDouble {
     /// The sign, if the error bound leaves no doubt.
     #[must_use]
     pub fn sign(&self) -> Option<Ordering> {
-        (self.high.abs() > self.error * SLACK).then(|| self.high.total_cmp(&0.0))
+        (self.high.abs() > self.error * SLACK).then(|| sign_of(self.high))
     }
 
     /// The quotient as a double, if its error is below this part of it.

@@ -34,7 +34,14 @@ pub const UNDERFLOW: f64 = 1e-150;
 pub fn sign(value: f64, operations: u32, size: f64, weight: f64) -> Option<Ordering> {
     let bound = (f64::from(operations + 2) * ROUNDING * size + UNDERFLOW) * weight;
     // An overflow makes one of them infinite or not a number, and the sign unknown.
-    (value.abs() > bound).then(|| value.total_cmp(&0.0))
+    (value.abs() > bound).then(|| sign_of(value))
+}
+
+/// The sign of a number that is not zero: one comparison, where `total_cmp` takes five instructions.
+#[inline]
+#[must_use]
+pub fn sign_of(value: f64) -> Ordering {
+    if value > 0.0 { Ordering::Greater } else { Ordering::Less }
 }
 
 /// A floating-point number with a bound on its distance from the true value, which every operation carries on.
@@ -64,7 +71,7 @@ impl Approximate {
     #[must_use]
     pub fn sign(&self) -> Option<Ordering> {
         // An overflow makes the error infinite or not a number, and the sign unknown.
-        (self.value.abs() > self.error * SLACK).then(|| self.value.total_cmp(&0.0))
+        (self.value.abs() > self.error * SLACK).then(|| sign_of(self.value))
     }
 
     /// The quotient; of unknown error where the error of `other` is not far below its size.

@@ -6,7 +6,7 @@
 //! underflows, so coordinates that small take the integers of `sign` instead.
 
 use crate::exact::angle::{Angle, mixed_sign};
-use crate::exact::filter::{ROUNDING, UNDERFLOW};
+use crate::exact::filter::{ROUNDING, UNDERFLOW, sign_of};
 use crate::exact::integer::small_differences;
 use crate::exact::sign::{Form, Number, exact_sign};
 use crate::point::{Point, dot, sub};
@@ -24,7 +24,7 @@ pub fn orientation(a: Point, b: Point, c: Point) -> Ordering {
     let (left, right) = (ca[0] * cb[1], ca[1] * cb[0]);
     let determinant = left - right;
     if determinant.abs() > ORIENT_BOUND * (left.abs() + right.abs()) + UNDERFLOW {
-        return determinant.total_cmp(&0.0);
+        return sign_of(determinant);
     }
     exact_orientation(a, b, c)
 }

@@ -9,7 +9,7 @@ use crate::exact::angle::{Angle, mixed_sign};
 use crate::exact::sign::{self, Form, Number};
 use crate::point::Point;
 use crate::progress::Progress;
-use std::cmp::Ordering::{Greater, Less};
+use std::cmp::Ordering::{self, Greater, Less};
 
 /// The edges with a disk that touches both ends and holds no point, nor a center of the edge's own triangles.
 ///
@@ -46,10 +46,16 @@ pub(crate) fn is_in(delaunay: &Delaunay, edge: Edge) -> bool {
 /// In a Delaunay triangulation they sum to at most 180°, so this is cot · cot ≥ 1.
 #[inline]
 fn sum_is_at_most_90(p: Point, q: Point, left: Point, right: Point) -> bool {
-    let (a, b) = (Angle::at(left, p, q), Angle::at(right, q, p));
+    let [a, b] = Angle::at_both([left, right], [p, q]);
     let difference = a.dot * b.dot - a.cross * b.cross;
-    let exact = || sign::exact_sign(&CotangentProduct, p, &[q, left, right]);
-    mixed_sign(difference, &a, &b).unwrap_or_else(exact) != Less
+    mixed_sign(difference, &a, &b).unwrap_or_else(|| exact_product(p, q, left, right)) != Less
+}
+
+// Apart, for the registers of the loop around it.
+#[cold]
+#[inline(never)]
+fn exact_product(p: Point, q: Point, left: Point, right: Point) -> Ordering {
+    sign::exact_sign(&CotangentProduct, p, &[q, left, right])
 }
 
 /// cot · cot − 1 of the angles at two points opposite to the edge from the origin to `q`, times two cross products.

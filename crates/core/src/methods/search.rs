@@ -13,7 +13,7 @@ use crate::point::{Point, cross, dot, sub};
 use crate::progress::Progress;
 use crate::space::region::Region;
 use crate::voronoi::VoronoiVertices;
-use std::cmp::Ordering::{Equal, Greater, Less};
+use std::cmp::Ordering::{self, Equal, Greater, Less};
 
 /// How the search for the disk of an edge of the one-step crust ended.
 #[derive(Debug, Clone, Copy)]
@@ -196,37 +196,71 @@ fn smallest_disk_is_in_cells(delaunay: &Delaunay, edge: Edge) -> bool {
 #[inline]
 fn half_stays_in_cell(delaunay: &Delaunay, s: u32, end: u32) -> bool {
     let (site, other) = (delaunay.point(s), delaunay.point(end));
-    delaunay
-        .star(s)
-        .neighbors
-        .iter()
-        .all(|&neighbor| neighbor == end || has_room(site, other, delaunay.point(neighbor)))
+    let neighbors = delaunay.star(s).neighbors;
+    for (k, &neighbor) in neighbors.iter().enumerate() {
+        if neighbor == end {
+            continue;
+        }
+        match has_room(site, other, delaunay.point(neighbor), |_| None) {
+            Some(true) => {}
+            Some(false) => return false,
+            None => return have_room_exactly(delaunay, site, end, &neighbors[k..]),
+        }
+    }
+    true
 }
 
-/// Is the half of the disk with diameter `s` `end` that is nearer to `s` nowhere nearer to `neighbor`?
+/// Do all `neighbors` of `site` but `end` leave room?
+// Apart: in the loop above, the compiler turns coordinates into integers in advance, for tests that are hardly ever made.
+#[cold]
+#[inline(never)]
+fn have_room_exactly(delaunay: &Delaunay, site: Point, end: u32, neighbors: &[u32]) -> bool {
+    let other = delaunay.point(end);
+    neighbors.iter().filter(|&&neighbor| neighbor != end).all(|&neighbor| {
+        let neighbor = delaunay.point(neighbor);
+        let exact = |is_ahead| Some(exact_room(site, other, neighbor, is_ahead));
+        has_room(site, other, neighbor, exact) == Some(true)
+    })
+}
+
+/// Is the half of the disk with diameter `s` `end` that is nearer to `s` nowhere nearer to `neighbor`? By `exact` where in doubt.
 ///
 /// With d the diameter from s, and g the vector to the neighbor, in the direction of g the half disk reaches |d×g| / 2 beyond
 /// the middle, d·g / 2, if g points forward, and |d| |g| / 2 if backward; the cell ends at |g|² / 2. Where the direction is in
 /// doubt the backward form serves, for it asks for no less.
 #[inline]
-fn has_room(s: Point, end: Point, neighbor: Point) -> bool {
+fn has_room(
+    s: Point,
+    end: Point,
+    neighbor: Point,
+    exact: impl Fn(bool) -> Option<Ordering>,
+) -> Option<bool> {
     let (d, g) = (sub(end, s), sub(neighbor, s));
     let (length, far) = (dot(d, d), dot(g, g));
     if far > 4.001 * length + UNDERFLOW {
         // The disk is nowhere further from s than |d|, and the bisector is at |g| / 2.
-        return true;
+        return Some(true);
     }
     let (along, aside) = (dot(d, g), cross(d, g));
     // |d| |g| is at most the sum of the latter two, so this is more than all terms of each sum below.
     let size = far + along.abs() + aside.abs();
-    if filter::sign(along, 4, size, 1.0) == Some(Greater) {
-        let sign = filter::sign(far - along - aside.abs(), 6, size, 1.0);
-        let exact = || sign::exact_sign(&RoomAhead, s, &[end, neighbor]);
-        return sign.unwrap_or_else(exact) != Less;
+    let is_ahead = filter::sign(along, 4, size, 1.0) == Some(Greater);
+    let sign = if is_ahead {
+        filter::sign(far - along - aside.abs(), 6, size, 1.0)
+    } else {
+        let room = far - along;
+        filter::sign(room * room - length * far, 12, 2.0 * size * size, 1.0)
+    };
+    sign.or_else(|| exact(is_ahead)).map(|sign| sign != Less)
+}
+
+/// The sign of the room that is left to a neighbor that is ahead, or behind.
+fn exact_room(s: Point, end: Point, neighbor: Point, is_ahead: bool) -> Ordering {
+    if is_ahead {
+        sign::exact_sign(&RoomAhead, s, &[end, neighbor])
+    } else {
+        sign::exact_sign(&RoomBehind, s, &[end, neighbor])
     }
-    let room = far - along;
-    let sign = filter::sign(room * room - length * far, 12, 2.0 * size * size, 1.0);
-    sign.unwrap_or_else(|| sign::exact_sign(&RoomBehind, s, &[end, neighbor])) != Less
 }
 
 /// (|g|² − d·g)² − |d×g|², whose first root is positive.
@@ -279,7 +313,8 @@ mod tests {
             } else {
                 sign::sign(&RoomBehind, s, &at) != Less
             };
-            assert!(room || !has_room(s, end, neighbor));
+            let exact = |is_ahead| Some(exact_room(s, end, neighbor, is_ahead));
+            assert!(room || has_room(s, end, neighbor, exact) == Some(false));
         };
         at_brinks(&RoomAhead, false, check);
         at_brinks(&RoomBehind, false, check);
