@@ -235,7 +235,8 @@ def as_carried(points: Any) -> Points:
 
 def as_coordinates(points: Any) -> FloatArray:
     """Return the coordinates of what a caller gives as points: the caller's own where they fit."""
-    if isinstance(points, Points) or _is_table(points):
+    # Of an array nothing has to be asked, which counts where points are few.
+    if type(points) is not np.ndarray and (isinstance(points, Points) or _is_table(points)):
         return as_carried(points).xy
     return as_points(points)
 

@@ -198,6 +198,11 @@ impl Delaunay {
     ///
     /// Without a branch on which way an edge leads, which no processor foresees.
     pub fn write_edges_from(&self, vertices: Range<usize>, edges: &mut Vec<Packed>) -> usize {
+        let [start, end] = [vertices.start, vertices.end].map(|v| self.stars.offset(v as u32));
+        if edges.len() < end - start {
+            edges.resize(end - start, Packed::default());
+        }
+        let edges = edges.as_mut_slice();
         let mut count = 0;
         // Of all vertices in one line none is an apex.
         let flat = if self.stars.is_flat() { NONE } else { 0 };
@@ -206,11 +211,6 @@ impl Delaunay {
             let (Some(&first), Some(&last)) = (neighbors.first(), neighbors.last()) else {
                 continue;
             };
-            let room = count + neighbors.len();
-            if edges.len() < room {
-                edges.resize(2 * room, Packed::default());
-            }
-            let edges = &mut edges[..room];
             let mut put = |q, left, right| {
                 edges[count] = Packed([p, q, left | flat, right | flat]);
                 count += usize::from(q > p);
