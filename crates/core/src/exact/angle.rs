@@ -22,7 +22,6 @@
 use crate::exact::filter::{ROUNDING, UNDERFLOW, sign_of};
 use crate::point::{Point, cross, dot, sub};
 use std::cmp::Ordering;
-use wide::f64x2;
 
 /// An angle as the dot and cross product of its sides.
 #[derive(Debug, Clone, Copy)]
@@ -43,21 +42,6 @@ impl Angle {
         let (to_p, to_q) = (sub(p, apex), sub(q, apex));
         let (dot, cross) = (dot(to_p, to_q), cross(to_p, to_q));
         Self { dot, cross, size: dot.abs() + cross.abs() }
-    }
-
-    /// The angles at two apexes, at the first from p to q and at the second from q to p, both at a time.
-    #[inline]
-    #[must_use]
-    pub fn at_both([first, second]: [Point; 2], [p, q]: [Point; 2]) -> [Self; 2] {
-        let [x, y] = [0, 1].map(|axis| f64x2::new([first[axis], second[axis]]));
-        let side =
-            |[a, b]: [Point; 2]| [f64x2::new([a[0], b[0]]) - x, f64x2::new([a[1], b[1]]) - y];
-        let ([to_px, to_py], [to_qx, to_qy]) = (side([p, q]), side([q, p]));
-        let dot = to_px * to_qx + to_py * to_qy;
-        let cross = to_px * to_qy - to_py * to_qx;
-        let size = dot.abs() + cross.abs();
-        let [dot, cross, size] = [dot, cross, size].map(f64x2::to_array);
-        [0, 1].map(|k| Self { dot: dot[k], cross: cross[k], size: size[k] })
     }
 
     /// The sign of the cross product, if its error leaves no doubt.

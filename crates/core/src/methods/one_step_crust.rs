@@ -46,7 +46,7 @@ pub(crate) fn is_in(delaunay: &Delaunay, edge: Edge) -> bool {
 /// In a Delaunay triangulation they sum to at most 180°, so this is cot · cot ≥ 1.
 #[inline]
 fn sum_is_at_most_90(p: Point, q: Point, left: Point, right: Point) -> bool {
-    let [a, b] = Angle::at_both([left, right], [p, q]);
+    let (a, b) = (Angle::at(left, p, q), Angle::at(right, q, p));
     let difference = a.dot * b.dot - a.cross * b.cross;
     mixed_sign(difference, &a, &b).unwrap_or_else(|| exact_product(p, q, left, right)) != Less
 }
