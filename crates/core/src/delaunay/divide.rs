@@ -52,7 +52,7 @@ pub fn triangulate(
         let bounds = if vertices.is_cell(&range) { Bounds::of(points) } else { Bounds::EMPTY };
         let extremes = Leaf::with(points, vertices.grid, |leaf, extremes| {
             let is_open = open_vertices(leaf, points.len(), extremes.left.edge, &bounds);
-            graph.load(leaf, extremes, &is_open)
+            graph.load(leaf, extremes, is_open)
         });
         progress.advance(range.len())?;
         return Ok(extremes);

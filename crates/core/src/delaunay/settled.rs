@@ -10,10 +10,16 @@ use crate::exact::filter::UNDERFLOW;
 use crate::point::{Point, cross, dot, sub};
 use crate::space::bounds::Bounds;
 
+/// Triangles, about, that tell whether most are settled.
+const ASKED: u16 = 64;
+
 /// Which of the `count` vertices of `leaf` a merge may touch, where all others are out of `bounds`: those on its hull, which `hull` is a half-edge
-/// of, and those of the triangles whose disk may reach out, and that hang together with it.
-pub fn open_vertices(leaf: &Leaf, count: usize, hull: u16, bounds: &Bounds) -> Vec<bool> {
-    let mut is_open = vec![count == 1; count];
+/// of, and those of the triangles whose disk may reach out, and that hang together with it. None if these are many, so that it does not pay.
+pub fn open_vertices(leaf: &Leaf, count: usize, hull: u16, bounds: &Bounds) -> Option<Vec<bool>> {
+    if !is_mostly_settled(leaf, bounds) {
+        return None;
+    }
+    let mut is_open = vec![false; count];
     // Whether the triangle to the left of a half-edge has been looked at.
     let mut is_seen = vec![false; leaf.used() as usize];
     let mut front: Vec<u16> = hull_edges(leaf, hull).collect();
@@ -25,7 +31,7 @@ pub fn open_vertices(leaf: &Leaf, count: usize, hull: u16, bounds: &Bounds) -> V
         if is_seen[e as usize] {
             continue;
         }
-        let sides = [e, leaf.prev(e.twin()), leaf.next(e).twin()];
+        let sides = sides(leaf, e);
         let corners = sides.map(|side| leaf.origin(side));
         for side in sides {
             is_seen[side as usize] = true;
@@ -37,7 +43,25 @@ pub fn open_vertices(leaf: &Leaf, count: usize, hull: u16, bounds: &Bounds) -> V
             front.extend(sides.map(Index::twin));
         }
     }
-    is_open
+    Some(is_open)
+}
+
+/// The sides of the triangle to the left of `e`, which is one of them.
+#[inline]
+fn sides(leaf: &Leaf, e: u16) -> [u16; 3] {
+    [e, leaf.prev(e.twin()), leaf.next(e).twin()]
+}
+
+/// Do the disks of most triangles lie in `bounds`? Else it does not pay to look at all, as where leaves hold few curves. It is asked of some.
+fn is_mostly_settled(leaf: &Leaf, bounds: &Bounds) -> bool {
+    let step = (leaf.used() / ASKED).max(1) | 1;
+    let (mut settled, mut all) = (0, 0);
+    for e in (0..leaf.used()).step_by(step.into()).filter(|&e| !leaf.is_free(e)) {
+        let corners = sides(leaf, e).map(|side| leaf.point(leaf.origin(side)));
+        settled += u32::from(holds_disk(bounds, corners));
+        all += 1;
+    }
+    3 * settled > 2 * all
 }
 
 /// Does the disk of a triangle lie in `bounds`? True only if it certainly does.

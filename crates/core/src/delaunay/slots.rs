@@ -17,15 +17,19 @@ const DESTINATION: usize = 0;
 const NEXT: usize = 1;
 const PREV: usize = 2;
 
-/// Slots that the star of a settled vertex of this degree takes.
-fn slots_of_star(degree: u32) -> usize {
-    degree.div_ceil(3) as usize
-}
-
-/// The slot of half-edge `e` of a leaf, the first of whose pairs are at `pairs`; `NONE` if it is not kept.
+/// The slot of half-edge `e` of a leaf whose pairs are at `pairs`; `NONE` if it is not kept.
 #[inline]
 fn number(pairs: &[u32], e: u16) -> u32 {
-    if e == u16::NONE { NONE } else { pairs[e as usize / 2] | u32::from(e & 1) }
+    pairs[e as usize / 2] | u32::from(e & 1)
+}
+
+/// A half-edge from each of the `count` vertices of `leaf`, if it has one.
+fn around(leaf: &Leaf, count: usize) -> Vec<u16> {
+    let mut around = vec![u16::NONE; count];
+    for e in (0..leaf.used()).filter(|&e| !leaf.is_free(e)) {
+        around[leaf.origin(e) as usize] = e;
+    }
+    around
 }
 
 /// Memory for the graph of all vertices.
@@ -142,56 +146,122 @@ impl<'a> Slots<'a> {
 
 impl Slots<'_> {
     /// Take the graph of `leaf`, which is on the same vertices, over; return the extremes of its hull in the numbers of the whole.
-    ///
-    /// Vertices that are not open are settled: their stars are written down, and half-edges between two of them are not kept.
     pub fn load(
         &mut self,
         leaf: &Leaf,
         extremes: Extremes<u16>,
-        is_open: &[bool],
+        is_open: Option<Vec<bool>>,
     ) -> Extremes<u32> {
-        let start = self.start as u32;
-        let mut end = self.free.fresh.start;
-        let mut pairs = vec![NONE; leaf.used() as usize / 2];
-        let mut around = vec![u16::NONE; is_open.len()];
-        self.degrees.fill(0);
-        let mut dropped = 0;
-        for e in (0..leaf.used()).step_by(2).filter(|&e| !leaf.is_free(e)) {
-            let origins = [e, e.twin()].map(|half| leaf.origin(half) as usize);
-            for (origin, half) in origins.into_iter().zip([e, e.twin()]) {
-                around[origin] = half;
-                self.degrees[origin] += 1;
-            }
-            if origins.into_iter().any(|origin| is_open[origin]) {
-                pairs[e as usize / 2] = end;
-                end += 2;
-            } else {
-                dropped += 1;
-            }
+        let (start, begin) = (self.start as u32, self.free.fresh.start);
+        let pairs = is_open.and_then(|is_open| self.load_open(leaf, &is_open));
+        if pairs.is_none() {
+            self.load_whole(leaf);
         }
-        let Some(place) = self.room(is_open, dropped) else {
-            return self.load(leaf, extremes, &vec![true; is_open.len()]);
-        };
-        self.free.fresh = end..self.free.fresh.start + place as u32;
-        self.settle(leaf, &around, is_open, place);
-        self.keep(leaf, &around, is_open, &pairs);
+        let slot = |e: u16| pairs.as_ref().map_or(begin + u32::from(e), |pairs| number(pairs, e));
         extremes.map(|HullVertex { vertex, edge }| HullVertex {
             vertex: start + u32::from(vertex),
-            edge: number(&pairs, edge),
+            edge: if edge == u16::NONE { NONE } else { slot(edge) },
         })
     }
 
-    /// Where to write stars of settled vertices from, if they take no more slots than the pairs of half-edges that are `dropped` for them:
-    /// then all other edges of a planar graph still fit.
-    fn room(&self, is_open: &[bool], dropped: usize) -> Option<usize> {
-        let settled = self.degrees.iter().zip(is_open).filter(|&(_, &is_open)| !is_open);
-        let slots: usize = settled.map(|(&degree, _)| slots_of_star(degree)).sum();
-        let slots = slots.next_multiple_of(2);
-        (slots <= 2 * dropped).then(|| self.half_edges.len() - slots)
+    /// Take all half-edges over, each at its number.
+    fn load_whole(&mut self, leaf: &Leaf) {
+        let (begin, start) = (self.free.fresh.start, self.start as u32);
+        for e in 0..leaf.used() {
+            let slot = begin + u32::from(e);
+            if leaf.is_free(e) {
+                if e % 2 == 0 {
+                    self.push_free(slot);
+                }
+                continue;
+            }
+            let origin = leaf.origin(e) as usize;
+            self.first[origin] = slot;
+            self.degrees[origin] += 1;
+            let [destination, next, prev] =
+                [leaf.destination(e), leaf.next(e), leaf.prev(e)].map(u32::from);
+            self.half_edges[e as usize] = [destination + start, next + begin, prev + begin];
+        }
+        self.free.fresh.start = begin + u32::from(leaf.used());
+    }
+
+    /// Write the stars of vertices that are not open, which are settled, and keep no half-edges between two of them; return where
+    /// the pairs of the others are.
+    ///
+    /// None if the stars take more slots than those half-edges would: then the other edges of a planar graph might not fit.
+    fn load_open(&mut self, leaf: &Leaf, is_open: &[bool]) -> Option<Vec<u32>> {
+        let around = around(leaf, is_open.len());
+        let begin = self.free.fresh.start;
+        let first = begin + self.settle(leaf, &around, is_open);
+        let mut pairs = vec![NONE; leaf.used() as usize / 2];
+        let end = self.number_pairs(leaf, &around, is_open, first, &mut pairs);
+        let dropped = (self.degrees.iter().sum::<u32>() - (end - first)) / 2;
+        if first - begin > 2 * dropped {
+            self.is_settled.fill(false);
+            self.degrees.fill(0);
+            return None;
+        }
+        self.free.fresh.start = end;
+        self.keep(leaf, &pairs);
+        Some(pairs)
+    }
+
+    /// Write the stars of the settled vertices to the first slots; return how many these are.
+    fn settle(&mut self, leaf: &Leaf, around: &[u16], is_open: &[bool]) -> u32 {
+        let (mut slot, start) = (0, self.start as u32);
+        for (v, &first) in around.iter().enumerate().filter(|&(v, _)| !is_open[v]) {
+            let mut degree = 0;
+            let star = self.half_edges[slot..].as_flattened_mut();
+            let mut e = first;
+            for neighbor in star {
+                *neighbor = start + u32::from(leaf.destination(e));
+                degree += 1;
+                e = leaf.next(e);
+                if e == first {
+                    break;
+                }
+            }
+            self.is_settled[v] = true;
+            self.first[v] = (SLOTS * self.start + slot) as u32;
+            self.degrees[v] = degree;
+            slot += degree.div_ceil(3) as usize;
+        }
+        slot.next_multiple_of(2) as u32
+    }
+
+    /// Give the pairs of half-edges with an open end slots from `first` on; return where these end.
+    fn number_pairs(
+        &mut self,
+        leaf: &Leaf,
+        around: &[u16],
+        is_open: &[bool],
+        first: u32,
+        pairs: &mut [u32],
+    ) -> u32 {
+        let mut end = first;
+        for (v, &start) in around.iter().enumerate().filter(|&(v, _)| is_open[v]) {
+            let mut degree = 0;
+            let mut e = start;
+            loop {
+                let pair = &mut pairs[e as usize / 2];
+                if *pair == NONE {
+                    *pair = end;
+                    end += 2;
+                }
+                degree += 1;
+                e = leaf.next(e);
+                if e == start {
+                    break;
+                }
+            }
+            self.first[v] = number(pairs, start);
+            self.degrees[v] = degree;
+        }
+        end
     }
 
     /// Write the half-edges of `leaf` that are kept to the slots of `pairs`.
-    fn keep(&mut self, leaf: &Leaf, around: &[u16], is_open: &[bool], pairs: &[u32]) {
+    fn keep(&mut self, leaf: &Leaf, pairs: &[u32]) {
         let start = self.start as u32;
         for (k, _) in pairs.iter().enumerate().filter(|&(_, &pair)| pair != NONE) {
             for e in [2 * k as u16, 2 * k as u16 + 1] {
@@ -199,24 +269,6 @@ impl Slots<'_> {
                 let destination = start + u32::from(leaf.destination(e));
                 *self.slot_mut(number(pairs, e)) = [destination, next, prev];
             }
-        }
-        for (v, _) in is_open.iter().enumerate().filter(|&(_, &is_open)| is_open) {
-            self.first[v] = number(pairs, around[v]);
-        }
-    }
-
-    /// Write the stars of the settled vertices from slot number `place` of this range on.
-    fn settle(&mut self, leaf: &Leaf, around: &[u16], is_open: &[bool], mut place: usize) {
-        for (v, &e) in around.iter().enumerate().filter(|&(v, _)| !is_open[v]) {
-            let slots = &mut self.half_edges[place..place + slots_of_star(self.degrees[v])];
-            let star = &mut slots.as_flattened_mut()[..self.degrees[v] as usize];
-            leaf.write_star(v, e, star);
-            for neighbor in star {
-                *neighbor += self.start as u32;
-            }
-            self.is_settled[v] = true;
-            self.first[v] = (SLOTS * self.start + place) as u32;
-            place += slots_of_star(self.degrees[v]);
         }
     }
 

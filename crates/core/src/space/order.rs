@@ -35,11 +35,11 @@ pub struct Order {
     pub memory: Vec<Key>,
 }
 
-/// The code of a point, upper half first, and its row.
+/// The code of a point, lower half first, and its row.
 pub type Key = [u32; 3];
 
 #[inline]
-fn code([high, low, _]: &Key) -> u64 {
+fn code([low, high, _]: &Key) -> u64 {
     u64::from(*high) << u32::BITS | u64::from(*low)
 }
 
@@ -141,7 +141,7 @@ fn keys(points: &[Point], grid: &Grid, scale: f64, progress: &Progress) -> Resul
             return [0; 3];
         }
         let code = grid.code(points[row].map(|x| x * scale));
-        [(code >> u32::BITS) as u32, code as u32, row as u32]
+        [code as u32, (code >> u32::BITS) as u32, row as u32]
     };
     let mut keys = Vec::with_capacity(2 * points.len());
     parts::extend(&mut keys, points.len(), key);
