@@ -11,7 +11,7 @@ use crate::point::{Point, cross, dot, sub};
 use crate::space::bounds::Bounds;
 
 /// Triangles, about, that tell whether most are settled.
-const ASKED: u16 = 64;
+const ASKED: u16 = 256;
 
 /// Which of the `count` vertices of `leaf` a merge may touch, where all others are out of `bounds`: those on its hull, which `hull` is a half-edge
 /// of, and those of the triangles whose disk may reach out, and that hang together with it. None if these are many, so that it does not pay.
@@ -52,7 +52,7 @@ fn sides(leaf: &Leaf, e: u16) -> [u16; 3] {
     [e, leaf.prev(e.twin()), leaf.next(e).twin()]
 }
 
-/// Do the disks of most triangles lie in `bounds`? Else it does not pay to look at all, as where leaves hold few curves. It is asked of some.
+/// Do the disks of all but few triangles lie in `bounds`? Else it does not pay to look at all, as where leaves hold few curves. It is asked of some.
 fn is_mostly_settled(leaf: &Leaf, bounds: &Bounds) -> bool {
     let step = (leaf.used() / ASKED).max(1) | 1;
     let (mut settled, mut all) = (0, 0);
@@ -61,7 +61,7 @@ fn is_mostly_settled(leaf: &Leaf, bounds: &Bounds) -> bool {
         settled += u32::from(holds_disk(bounds, corners));
         all += 1;
     }
-    3 * settled > 2 * all
+    6 * settled > 5 * all
 }
 
 /// Does the disk of a triangle lie in `bounds`? True only if it certainly does.
