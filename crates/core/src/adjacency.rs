@@ -4,11 +4,15 @@ use crate::delaunay::Delaunay;
 use crate::edges::{Edges, sort};
 use crate::error::Result;
 use crate::memory;
+use crate::parts::GRAIN;
 use rayon::prelude::*;
 
 /// Memory for each edge, and for each point, while the neighbors along the edges are collected and sorted.
 const OF_EDGE: usize = 64;
 const OF_POINT: usize = 16;
+
+/// Parts that edges are sorted from.
+const PARTS: usize = 8;
 
 /// The edges at each of some numbers, which stand for rows or for vertices.
 #[derive(Debug, Clone, Default)]
@@ -72,13 +76,15 @@ impl Adjacency {
     pub fn new(delaunay: &Delaunay, edges: &Edges) -> Result<Self> {
         memory::check(OF_EDGE * edges.len() + OF_POINT * delaunay.input_len(), 1)?;
         let vertex = vertices_of_rows(delaunay);
-        let of_rows = |edge: &[u32; 2]| {
-            let [p, q] = edge.map(|row| vertex[row as usize]);
-            [p.min(q), p.max(q)]
+        let of_rows = |edges: &[[u32; 2]]| {
+            let mut mapped = Vec::with_capacity(edges.len());
+            let ends = edges.iter().map(|edge| edge.map(|row| vertex[row as usize]));
+            mapped.extend(ends.filter(|[p, q]| p != q).map(|[p, q]| [p.min(q), p.max(q)]));
+            mapped
         };
-        let mut mapped: Edges = edges.par_iter().map(of_rows).collect();
-        mapped.retain(|[p, q]| p != q);
-        Ok(Self::of_vertices(&[mapped], delaunay.points().len()))
+        let length = edges.len().div_ceil(PARTS).max(GRAIN);
+        let mapped: Vec<Edges> = edges.par_chunks(length).map(of_rows).collect();
+        Ok(Self::of_vertices(&mapped, delaunay.points().len()))
     }
 
     /// The neighbors along edges p < q between `count` vertices, in any order.
@@ -107,6 +113,16 @@ impl Adjacency {
     #[must_use]
     pub fn of(&self, vertex: u32) -> &[(u32, u32)] {
         self.incidence.of(vertex)
+    }
+
+    /// Is there an edge between `p` and `q`? Quick where two meet, as at most vertices.
+    #[inline]
+    #[must_use]
+    pub fn joins(&self, p: u32, q: u32) -> bool {
+        match *self.of(p) {
+            [(a, _), (b, _)] => q == a || q == b,
+            _ => self.edge(p, q).is_some(),
+        }
     }
 
     /// The number of the edge between `p` and `q`, if there is one.

@@ -6,7 +6,7 @@ use crate::delaunay::Delaunay;
 use crate::edges::Edges;
 use crate::error::Result;
 use crate::interpolant::Interpolant;
-use crate::methods::{Kind, beta_skeleton, crust, is_beta_skeleton};
+use crate::methods::{Kind, beta_skeleton, is_beta_skeleton};
 use crate::parts::{collect, map};
 use crate::progress::Progress;
 use rayon::prelude::*;
@@ -90,24 +90,24 @@ pub struct Certificate {
     pub edges: Vec<Reason>,
     /// For each row why it is weak.
     pub points: Vec<Reason>,
-    /// The crust, where it was needed: to be `known` the next time.
+    /// The crust, where it was needed.
     pub crust: Option<Edges>,
 }
 
-/// Certify `edges`, which are canonical and have been made smooth; `known` is the crust, for those who have it.
+/// Certify `edges`, which are canonical and have been made smooth; `crust` gives the crust, where it is needed.
 ///
 /// # Errors
-/// A cancelled `progress`.
+/// A cancelled `progress`, or an error of `crust`.
 pub fn certify(
     delaunay: &Delaunay,
     edges: &Edges,
     smooth: &Interpolant,
     theorems: &Theorems,
-    known: Option<Edges>,
+    crust: impl FnOnce() -> Result<Edges>,
     progress: &Progress,
 ) -> Result<Certificate> {
     let ratios = ratios(delaunay, edges, smooth, progress)?;
-    let (theorem, crust) = theorem(delaunay, edges, smooth, theorems, known, progress)?;
+    let (theorem, crust) = theorem(delaunay, edges, smooth, theorems, crust, progress)?;
     let threshold = match theorem {
         Some(Theorem::Crust) => theorems.of_crust,
         _ => theorems.of_skeleton,
@@ -143,7 +143,7 @@ fn theorem(
     edges: &Edges,
     smooth: &Interpolant,
     theorems: &Theorems,
-    known: Option<Edges>,
+    crust: impl FnOnce() -> Result<Edges>,
     progress: &Progress,
 ) -> Result<(Option<Theorem>, Option<Edges>)> {
     let is_skeleton = if delaunay.duplicates().is_empty() {
@@ -154,7 +154,7 @@ fn theorem(
     if is_skeleton {
         return Ok((Some(Theorem::BetaSkeleton), None));
     }
-    let crust = known.map_or_else(|| crust(delaunay, progress), Ok)?;
+    let crust = crust()?;
     Ok(((crust == *edges).then_some(Theorem::Crust), Some(crust)))
 }
 

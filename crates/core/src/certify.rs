@@ -5,10 +5,10 @@ use crate::delaunay::Delaunay;
 use crate::edges::Edges;
 use crate::error::Result;
 use crate::interpolant::{Bend, Interpolant};
-use crate::parts::{map, split};
+use crate::parts::{GRAIN, in_parts, map, short};
 use crate::point::{Point, cross, dot, sub};
 use crate::progress::{Progress, Stage};
-use crate::rows::OfVertices;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// For each of `edges`, which are canonical: the distance from the curve Voronoi vertex to its samples over the local feature size there.
 ///
@@ -31,31 +31,44 @@ pub fn ratios(
         let of_rows = |edge: &[u32; 2]| ratio(delaunay, axis, edge.map(|row| vertex[row as usize]));
         return map(edges.len(), 0.0, progress, |k| of_rows(&edges[k]));
     }
-    progress.enter(Stage::Measure, 3 * count)?;
-    let of_vertex = |v, ratios: &mut Vec<f64>| append(delaunay, axis, v, ratios);
-    let own = OfVertices::new(count, 1, progress, of_vertex)?;
-    let mut ratios = vec![0.0; edges.len()];
-    own.by_rows(
-        delaunay,
-        progress,
-        |counts| split(&mut ratios, counts.iter().copied()),
-        |part, own| part.copy_from_slice(own),
-    )?;
-    Ok(ratios)
+    progress.enter(Stage::Measure, count)?;
+    let first = first_edges(edges, count);
+    let mut ratios = Vec::new();
+    ratios.resize_with(edges.len(), AtomicU64::default);
+    in_parts(count, GRAIN, progress, |vertices| {
+        for few in short(vertices, progress) {
+            few.for_each(|v| write(delaunay, axis, v as u32, &first, &ratios));
+        }
+    })?;
+    Ok(ratios.into_iter().map(|ratio| f64::from_bits(ratio.into_inner())).collect())
 }
 
-/// Append the ratios of the edges from `v` to vertices of later rows, in the order of these.
-fn append(delaunay: &Delaunay, axis: &Interpolant, v: u32, ratios: &mut Vec<f64>) {
-    let (row, start) = (|v: u32| delaunay.rows()[v as usize], ratios.len());
-    let ends = axis.curve().of(v);
-    for &(q, _) in ends.iter().filter(|&&(q, _)| row(q) > row(v)) {
-        ratios.push(ratio(delaunay, axis, [v, q]));
+/// For each of `rows` rows the number of its first edge, if it comes first in any.
+fn first_edges(edges: &Edges, rows: usize) -> Vec<u32> {
+    let mut first = vec![0; rows];
+    for (number, edge) in edges.iter().enumerate().rev() {
+        first[edge[0] as usize] = number as u32;
     }
-    // At a branch they are all infinite.
-    if let &[(a, _), (b, _)] = ends
-        && row(a) > row(b)
-    {
-        ratios[start..].reverse();
+    first
+}
+
+/// Write the ratios of the edges from `v` to vertices of later rows; `first` are the first edges of rows.
+///
+/// Vertices are near each other in memory where they are in the plane, so all is made in their order; rows need not be.
+fn write(delaunay: &Delaunay, axis: &Interpolant, v: u32, first: &[u32], ratios: &[AtomicU64]) {
+    let row = |v: u32| delaunay.rows()[v as usize];
+    let (own, ends) = (row(v), axis.curve().of(v));
+    let mut number = first[own as usize] as usize;
+    let mut put = |&(q, _): &(u32, u32)| {
+        if row(q) > own {
+            ratios[number].store(ratio(delaunay, axis, [v, q]).to_bits(), Relaxed);
+            number += 1;
+        }
+    };
+    // At a branch all are infinite, so there their order does not count.
+    match ends {
+        &[(a, _), (b, _)] if row(a) > row(b) => ends.iter().rev().for_each(&mut put),
+        _ => ends.iter().for_each(&mut put),
     }
 }
 

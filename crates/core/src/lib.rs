@@ -26,7 +26,6 @@ mod parts;
 mod point;
 mod progress;
 pub mod ridge;
-mod rows;
 mod space;
 pub mod tiles;
 pub mod trace;

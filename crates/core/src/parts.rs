@@ -8,7 +8,6 @@ use rayon::prelude::*;
 use std::borrow::Borrow;
 use std::cmp::Ordering;
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// Items in a part, where there is no reason for another number.
 pub const GRAIN: usize = 1 << 12;
@@ -109,25 +108,6 @@ pub fn give_back<T: Send + 'static>(memory: Vec<T>) {
     if rayon::current_num_threads() > 1 {
         rayon::spawn(move || drop(memory));
     }
-}
-
-/// Do all numbers below `count` fulfill `condition`? One that does not ends the search.
-///
-/// # Errors
-/// A cancelled `progress`.
-pub fn all(
-    count: usize,
-    progress: &Progress,
-    condition: impl Fn(usize) -> bool + Sync,
-) -> Result<bool> {
-    let fails = AtomicBool::new(false);
-    in_parts(count, GRAIN, progress, |numbers| {
-        let mut few = short(numbers, progress);
-        if !fails.load(Relaxed) && !few.all(|mut numbers| numbers.all(&condition)) {
-            fails.store(true, Relaxed);
-        }
-    })?;
-    Ok(!fails.into_inner())
 }
 
 /// Do `work` on each of `parts`, with its number.

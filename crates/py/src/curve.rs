@@ -10,6 +10,9 @@ use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use std::sync::Arc;
 
+/// Edges that are compared without a branch.
+const RUN: usize = 64;
+
 /// Edges, and the neighbors of each vertex along them.
 #[pyclass(frozen, module = "crustline._core")]
 pub struct Curve {
@@ -38,7 +41,12 @@ impl Curve {
     /// Was this made of `edges`, which are canonical?
     fn is_of(&self, py: Python<'_>, edges: PyReadonlyArray2<'_, i64>) -> PyResult<bool> {
         let edges = rows(py, &edges)?;
-        let same = |(own, edge): (&[u32; 2], &[i64; 2])| own.map(i64::from) == *edge;
-        Ok(edges.len() == self.edges.len() && self.edges.iter().zip(edges).all(same))
+        let same = |own: &[u32; 2], edge: &[i64; 2]| {
+            i64::from(own[0]) == edge[0] && i64::from(own[1]) == edge[1]
+        };
+        let mut runs = self.edges.chunks(RUN).zip(edges.chunks(RUN));
+        Ok(edges.len() == self.edges.len()
+            && runs
+                .all(|(own, run)| own.iter().zip(run).fold(true, |all, (a, b)| all & same(a, b))))
     }
 }

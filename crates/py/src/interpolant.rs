@@ -4,7 +4,7 @@ use crate::arrays::{integer_rows, rows, values};
 use crate::call::Call;
 use crate::curve::Curve;
 use crate::delaunay::Delaunay;
-use crate::edges::canonical;
+use crate::edges::narrow;
 use crate::threads::aside;
 use crustline_core as core;
 use crustline_core::certificate::{Reason, Theorem, Theorems, certify};
@@ -68,18 +68,17 @@ impl Interpolant {
         let [beta, of_skeleton, of_crust, margin] = theorems;
         let theorems = Theorems { beta, of_skeleton, of_crust, margin };
         let size = delaunay.input_len();
-        let known =
-            crust.map(|edges| canonical(py, threads, rows(py, &edges)?, size)).transpose()?;
-        let is_known = known.is_some();
+        let known = crust.as_ref().map(|edges| rows(py, edges)).transpose()?;
         let call = Call { size, threads, callback: progress };
         let edges = &self.curve.get().edges;
         let found = call.run(py, |progress| {
-            certify(delaunay, edges, &self.inner, &theorems, known, progress)
+            let crust = || known.map_or_else(|| core::methods::crust(delaunay, progress), narrow);
+            certify(delaunay, edges, &self.inner, &theorems, crust, progress)
         })?;
         let theorem = found.theorem.map(Theorem::method);
         let codes = [found.edges, found.points].map(|reasons| values(py, Reason::codes(reasons)));
         let [of_edges, of_points] = codes;
-        let crust = found.crust.filter(|_| !is_known);
+        let crust = found.crust.filter(|_| known.is_none());
         let crust = crust.map(|edges| integer_rows(py, threads, &edges)).transpose()?;
         Ok((theorem, found.guaranteed, values(py, found.ratios), of_edges, of_points, crust))
     }

@@ -4,9 +4,11 @@ use crate::arrays::{coordinates, integer_rows, integer_rows_of, integers, values
 use crate::call::Call;
 use crate::curve::Curve;
 use crate::delaunay::Delaunay;
+use crate::threads::aside;
 use crustline_core::medial_axis::{MedialAxis, medial_axis as axis};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use rayon::prelude::*;
 
 /// The medial axis as a dictionary of arrays, by the names of the fields.
 #[pyfunction]
@@ -32,7 +34,7 @@ pub fn medial_axis<'py>(
     set("radii", values(py, radii).into_any())?;
     set("edges", integer_rows_of(py, threads, &edges, |edge| edge.ends)?.into_any())?;
     set("samples", integer_rows_of(py, threads, &edges, |edge| edge.samples)?.into_any())?;
-    let inner = edges.iter().map(|edge| edge.is_inner).collect();
+    let inner = aside(py, threads, || edges.par_iter().map(|edge| edge.is_inner).collect())?;
     set("inner", values::<bool>(py, inner).into_any())?;
     set("ray_origins", integers(py, ray_origins.into_iter().map(i64::from)).into_any())?;
     set("ray_directions", coordinates(py, ray_directions)?.into_any())?;

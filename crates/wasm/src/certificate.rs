@@ -5,6 +5,7 @@ use crustline_core::Delaunay;
 use crustline_core::certificate::{self as core, Reason, Theorem, Theorems};
 use crustline_core::edges::Edges;
 use crustline_core::interpolant::Interpolant;
+use crustline_core::methods::crust;
 use wasm_bindgen::prelude::*;
 
 /// What is guaranteed of edges, where not, and why.
@@ -45,7 +46,9 @@ impl Certificate {
             return Err(JsError::new(message));
         };
         let known = Theorems { beta, of_skeleton, of_crust, margin };
-        let found = run(|progress| core::certify(delaunay, edges, smooth, &known, None, progress))?;
+        let found = run(|progress| {
+            core::certify(delaunay, edges, smooth, &known, || crust(delaunay, progress), progress)
+        })?;
         let theorem = found.theorem.map_or("", Theorem::method);
         Ok(Self {
             theorem: theorem.to_owned(),

@@ -157,6 +157,10 @@ impl Delaunay {
     #[must_use]
     pub fn position(&self, p: u32, q: u32) -> Option<usize> {
         let neighbors = self.star(p).neighbors;
+        let place = self.stars.place_among_first(p, q);
+        if place.is_some() {
+            return place;
+        }
         if neighbors.len() <= SHORT {
             return neighbors.iter().position(|&neighbor| neighbor == q);
         }

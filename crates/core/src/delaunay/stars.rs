@@ -126,6 +126,21 @@ impl Stars {
         }
     }
 
+    /// The number of `q` in the star of `p`, if it is among the first of it.
+    ///
+    /// All of them are compared, so there is no branch on which it is.
+    #[inline]
+    #[must_use]
+    pub fn place_among_first(&self, p: u32, q: u32) -> Option<usize> {
+        /// Neighbors of most vertices at most.
+        const FIRST: usize = 8;
+        let (start, end) = (self.offset(p), self.offset(p + 1));
+        let (run, _) = self.neighbors[start..].split_first_chunk::<FIRST>()?;
+        let hits = (0..FIRST).fold(0, |hits, k| hits | u32::from(run[k] == q) << k);
+        let place = hits.trailing_zeros() as usize;
+        (place < FIRST.min(end - start)).then_some(place)
+    }
+
     /// One value for each half-edge, those of one star after another: `write` gets a vertex and its part of them.
     ///
     /// Of no use, and not whole, if the call is cancelled.

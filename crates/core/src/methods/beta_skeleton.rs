@@ -13,12 +13,13 @@ use crate::exact::angle_bound::AngleBound;
 use crate::exact::constant::{Constant, fraction};
 use crate::exact::filter;
 use crate::exact::sign::{self, Form, Number};
-use crate::parts::all;
+use crate::parts::{GRAIN, in_parts, short};
 use crate::point::{Point, dot, sub};
 use crate::progress::{Progress, Stage};
 use crate::space::bounds::Bounds;
 use crate::space::boxes::Boxes;
 use std::cmp::Ordering::{Equal, Greater};
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// Neighbors of either end of an edge that are looked at before the boxes; of very many, few.
 const NEAR: usize = 32;
@@ -75,15 +76,26 @@ pub fn is_beta_skeleton(
         let message = format!("beta must be a finite number above 1, not {beta}");
         return Err(Error::Argument { message });
     }
-    progress.enter(Stage::Select, curve.edges().len() + delaunay.points().len())?;
+    progress.enter(Stage::Select, delaunay.points().len())?;
     let bound = AngleBound::of_beta(beta);
-    let is_chosen = |edge: &Edge| curve.edge(edge.p, edge.q).is_some();
-    let agrees = |edge: Edge| is_chosen(&edge) == has_angles(delaunay, edge, &bound, &bound);
-    let in_triangulation = |&[p, q]: &[u32; 2]| delaunay.position(p, q).is_some();
-    let own = curve.edges();
-    let is_within = all(own.len(), progress, |k| in_triangulation(&own[k]))?;
-    Ok(is_within
-        && all(delaunay.points().len(), progress, |p| delaunay.edges_from(p as u32).all(agrees))?)
+    let differs = AtomicBool::new(false);
+    let found = in_parts(delaunay.points().len(), GRAIN, progress, |vertices| {
+        let (mut edges, mut found) = (Vec::new(), 0);
+        for few in short(vertices, progress).take_while(|_| !differs.load(Relaxed)) {
+            let count = delaunay.write_edges_from(few, &mut edges);
+            for edge in edges[..count].iter().map(|&edge| Edge::from(edge)) {
+                let is_chosen = curve.joins(edge.p, edge.q);
+                if is_chosen != has_angles(delaunay, edge, &bound, &bound) {
+                    differs.store(true, Relaxed);
+                    break;
+                }
+                found += usize::from(is_chosen);
+            }
+        }
+        found
+    })?;
+    // Others are not in the triangulation.
+    Ok(!differs.into_inner() && found.iter().sum::<usize>() == curve.edges().len())
 }
 
 /// The edges with an empty lune, for `beta` > 1.
