@@ -8,7 +8,7 @@ use super::stencil::Scale;
 use crate::adjacency::Adjacency;
 use crate::delaunay::Delaunay;
 use crate::error::Result;
-use crate::parts::{GRAIN, copies, replace, try_each};
+use crate::parts::{GRAIN, copies, try_each};
 use crate::point::{Point, cross, dot, sub};
 use crate::progress::Progress;
 
@@ -107,20 +107,50 @@ pub fn bends(
     scale: &Scale,
     progress: &Progress,
 ) -> Result<Vec<Option<Bend>>> {
-    let count = delaunay.points().len();
-    let circle = |v| circle(delaunay, curve, v as u32);
-    let mut bends = replace(copies(None, count), progress, circle)?;
-    let fit = |v| Fit::new(&bends, scale, v as u32);
-    let fits = replace(copies(None, count), progress, fit)?;
-    try_each(bends.chunks_mut(GRAIN).collect(), |k, part| {
-        for (bend, fit) in part.iter_mut().zip(&fits[k * GRAIN..]) {
+    let mut bends = copies(None, delaunay.points().len());
+    try_each(bends.chunks_mut(GRAIN).collect(), |k, bends| {
+        let (first, end) = (k * GRAIN, k * GRAIN + bends.len());
+        for (bend, v) in bends.iter_mut().zip(first..end) {
+            *bend = circle(delaunay, curve, v as u32);
+        }
+        // Of other vertices so few matter that each part makes its own.
+        let others = Circles { delaunay, curve, first, known: &[] };
+        let circles = Circles { known: bends, ..others };
+        let fit = |v| Fit::new(&circles, scale, v as u32);
+        let fits: Vec<Option<Fit>> = (first..end).map(fit).collect();
+        let second = |v: u32| {
+            let known = fits.get((v as usize).wrapping_sub(first)).copied();
+            known.unwrap_or_else(|| Fit::new(&others, scale, v)).map(|fit| fit.second)
+        };
+        for (bend, fit) in bends.iter_mut().zip(&fits) {
             if let (Some(bend), Some(fit)) = (bend, fit) {
-                fit.refine(bend, &fits);
+                let near = bend.adjacent.map(|next| next.and_then(second).unwrap_or(0.0));
+                fit.refine(bend, near);
             }
         }
-        progress.advance(part.len())
+        progress.advance(bends.len())
     })?;
     Ok(bends)
+}
+
+/// The circles at vertices: those of successive ones are known.
+struct Circles<'a> {
+    delaunay: &'a Delaunay,
+    curve: &'a Adjacency,
+    first: usize,
+    known: &'a [Option<Bend>],
+}
+
+impl Circles<'_> {
+    /// The circle at `v`; `made` is where it is kept if it was not known.
+    #[inline]
+    fn at<'b>(&'b self, v: u32, made: &'b mut Option<Bend>) -> Option<&'b Bend> {
+        if let Some(known) = self.known.get((v as usize).wrapping_sub(self.first)) {
+            return known.as_ref();
+        }
+        *made = circle(self.delaunay, self.curve, v);
+        made.as_ref()
+    }
 }
 
 /// The circle through a vertex and those adjacent to it; at an endpoint through it and the next two.
@@ -181,10 +211,11 @@ struct Fit {
 }
 
 impl Fit {
-    fn new(circles: &[Option<Bend>], scale: &Scale, v: u32) -> Option<Self> {
-        let here = circles[v as usize].as_ref()?;
+    fn new(circles: &Circles<'_>, scale: &Scale, v: u32) -> Option<Self> {
+        let [mut here, mut before, mut after] = [None; 3];
+        let here = circles.at(v, &mut here)?;
         let [Some(a), Some(b)] = here.adjacent else { return None };
-        let (before, after) = (circles[a as usize].as_ref()?, circles[b as usize].as_ref()?);
+        let (before, after) = (circles.at(a, &mut before)?, circles.at(b, &mut after)?);
         if before.adjacent.contains(&None) || after.adjacent.contains(&None) {
             return None;
         }
@@ -210,12 +241,10 @@ impl Fit {
     }
 
     /// Give `bend`, the circle at the vertex, the quadratic's curvature, and the tangent that goes with it.
-    fn refine(&self, bend: &mut Bend, fits: &[Option<Self>]) {
-        let near = [0, 1].map(|end| {
-            let fit = bend.adjacent[end].and_then(|next| fits[next as usize].as_ref());
-            let second = fit.map_or(0.0, |fit| fit.second);
-            if self.agree[end] { second } else { -second }
-        });
+    ///
+    /// `near` are the second derivatives, halved, at the adjacent vertices.
+    fn refine(&self, bend: &mut Bend, near: [f64; 2]) {
+        let near = [0, 1].map(|end| if self.agree[end] { near[end] } else { -near[end] });
         let second = limited(self.second, near);
         let slope = self.slope[0] - second * self.slope[1];
         let correction = -slope * self.moments[0] - second * self.moments[1];

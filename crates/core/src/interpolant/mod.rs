@@ -46,7 +46,7 @@ impl Interpolant {
         memory::check(delaunay.points().len(), BYTES)?;
         let scale = Scale::of(delaunay.points());
         let stencil = stencil(delaunay, &curve, &scale, progress)?;
-        progress.enter(Stage::Interpolate, 5 * delaunay.points().len())?;
+        progress.enter(Stage::Interpolate, 3 * delaunay.points().len())?;
         let bends = bends(delaunay, &stencil, &scale, progress)?;
         let tree = Tree::new(axis(delaunay, &bends, progress)?, scale.bounds);
         let places = delaunay.points();

@@ -23,12 +23,17 @@ impl Boxes {
     #[must_use]
     pub fn new<T: Sync>(items: &[T], around: impl Fn(&T) -> Bounds + Sync) -> Self {
         let leaf = |items: &[T]| items.iter().map(&around).fold(Bounds::EMPTY, Bounds::join);
+        Self::over(items.par_chunks(FAN).map(leaf).collect(), items.len())
+    }
+
+    /// The boxes over `leaves`, each around the next few of a number of items.
+    pub(super) fn over(leaves: Vec<Bounds>, items: usize) -> Self {
         let node = |nodes: &[Bounds]| nodes.iter().copied().fold(Bounds::EMPTY, Bounds::join);
-        let mut levels: Vec<Vec<Bounds>> = vec![items.par_chunks(FAN).map(leaf).collect()];
+        let mut levels = vec![leaves];
         while let Some(below) = levels.last().filter(|level| level.len() > 1) {
             levels.push(below.par_chunks(FAN).map(node).collect());
         }
-        Self { items: items.len() as u32, levels }
+        Self { items: items as u32, levels }
     }
 
     /// The number of levels.

@@ -2,70 +2,86 @@
 
 use crate::parts::{each, scatter, split};
 use crate::point::{Point, dot, sub};
-use crate::space::bounds::Bounds;
-use crate::space::boxes::Boxes;
+use crate::space::bounds::{Bounds, larger, smaller};
+use crate::space::boxes::{Boxes, FAN};
 use crate::space::segment::{Segment, push};
 use rayon::prelude::*;
+use std::ops::Range;
+use wide::f64x4;
 
-/// Places that go down the tree together.
+/// Places that start down the tree together.
 const RUN: usize = 64;
-/// The level down to which they do; there boxes are about as large as the runs.
-const MIDDLE: usize = 2;
-/// Where segments are joined, a box is not opened for a gain smaller than this part of the squared distance.
-const GAIN: f64 = 1e-3;
+/// They part where more boxes than these may matter to one of them.
+const MANY: usize = 8;
+/// Boxes are compared with squared distances this much larger, for their rounding.
+const ROUNDING: f64 = 1.0 + 1e-12;
 /// Segments that one task joins at a time.
 const GRAIN: usize = 1 << 14;
 /// Segments that are sorted at a time, about, and the most such buckets.
 const BUCKET: usize = 1 << 9;
 const MOST_BUCKETS: usize = 1 << 12;
 
-/// A segment, made ready for distances.
-#[derive(Debug, Clone, Copy)]
-struct Line {
-    start: Point,
-    along: Point,
-    /// One over the square of the length; 0 if that vanishes.
-    inverse: f64,
-}
+/// The segments of a leaf, made ready for distances: of each the start, the vector along it, and one over its squared length.
+///
+/// A plain array, as zeros of it come without being written.
+type Leaf = [[f64; FAN]; 5];
 
-impl Line {
-    fn new([start, end]: [Point; 2]) -> Self {
+/// The leaf of a few segments; what is left of it is infinitely far away.
+fn leaf<'a>(ends: impl Iterator<Item = &'a [Point; 2]>) -> Leaf {
+    let mut leaf = [[f64::INFINITY; FAN], [f64::INFINITY; FAN], [0.0; FAN], [0.0; FAN], [0.0; FAN]];
+    for (k, &[start, end]) in ends.enumerate() {
         let along = sub(end, start);
         let square = dot(along, along);
-        Self { start, along, inverse: if square.is_normal() { 1.0 / square } else { 0.0 } }
+        let inverse = if square.is_normal() { 1.0 / square } else { 0.0 };
+        let values = [start[0], start[1], along[0], along[1], inverse];
+        leaf.iter_mut().zip(values).for_each(|(lanes, value)| lanes[k] = value);
     }
+    leaf
+}
 
-    /// The squared distance from `p`.
-    #[inline]
-    fn square(&self, p: Point) -> f64 {
-        let (along, from) = (self.along, sub(p, self.start));
-        let t = (dot(from, along) * self.inverse).clamp(0.0, 1.0);
-        let off = [from[0] - t * along[0], from[1] - t * along[1]];
-        dot(off, off)
-    }
+/// The squared distances of the segments of a leaf from `p`.
+#[inline]
+fn squares(leaf: &Leaf, p: Point) -> [f64x4; 2] {
+    let half = |first: usize| {
+        let four = |lanes: &[f64; FAN]| {
+            f64x4::new([lanes[first], lanes[first + 1], lanes[first + 2], lanes[first + 3]])
+        };
+        let [x, y, u, v, inverse] = leaf;
+        let (x, y, u, v) = (four(x), four(y), four(u), four(v));
+        let (x, y) = (f64x4::splat(p[0]) - x, f64x4::splat(p[1]) - y);
+        let t = ((x * u + y * v) * four(inverse)).fast_max(f64x4::ZERO).fast_min(f64x4::ONE);
+        let (x, y) = (x - t * u, y - t * v);
+        x * x + y * y
+    };
+    [half(0), half(4)]
+}
+
+/// The squared distance of one of them: the same number.
+#[inline]
+fn square(leaf: &Leaf, k: usize, p: Point) -> f64 {
+    let [x, y, u, v, inverse] = leaf;
+    let (from, along) = ([p[0] - x[k], p[1] - y[k]], [u[k], v[k]]);
+    let t = smaller(larger(dot(from, along) * inverse[k], 0.0), 1.0);
+    let off = [from[0] - t * along[0], from[1] - t * along[1]];
+    dot(off, off)
 }
 
 /// Segments, searchable.
 #[derive(Debug, Default)]
 pub struct Tree {
-    lines: Vec<Line>,
+    leaves: Vec<Leaf>,
     boxes: Boxes,
-    gain: f64,
 }
 
 impl Tree {
     /// A tree of the segments in `parts`, joined where they are in line. Queries are within `bounds`.
     #[must_use]
     pub fn new(parts: Vec<Vec<Segment>>, bounds: Bounds) -> Self {
-        let joined = joined(&parts, &order(&parts, bounds));
-        drop(parts);
-        // Zeros come without being written, so that each task is the first to touch what it fills.
-        let mut ends = vec![[[0.0; 2]; 2]; joined.iter().map(Vec::len).sum()];
-        let targets = split(&mut ends, joined.iter().map(Vec::len));
-        each(targets.into_iter().zip(joined).collect(), |_, (target, part)| {
-            target.iter_mut().zip(part).for_each(|(ends, segment)| *ends = segment.ends);
-        });
-        Self::of(&ends, GAIN)
+        let order = order(&parts, bounds);
+        let part = |order: &[Key]| leaves(joined(&parts, order).iter().map(|s| s.ends));
+        let made: Vec<_> = order.par_chunks(GRAIN).map(part).collect();
+        drop((parts, order));
+        Self::of(made)
     }
 
     /// A tree of the segments between `ends`, perhaps points, as they are: distances are exact but for rounding.
@@ -74,25 +90,31 @@ impl Tree {
         let bounds = Bounds::of(ends.as_flattened());
         let parts = [ends.iter().map(|&ends| Segment::new(ends, 0.0)).collect()];
         let order = order(&parts, bounds);
-        let ordered: Vec<[Point; 2]> = order.into_iter().map(|key| at(&parts, key).ends).collect();
-        Self::of(&ordered, 0.0)
+        let part = |order: &[Key]| leaves(order.iter().map(|&key| at(&parts, key).ends));
+        Self::of(order.par_chunks(GRAIN).map(part).collect())
     }
 
-    fn of(ends: &[[Point; 2]], gain: f64) -> Self {
-        let boxes = Boxes::new(ends, |ends| Bounds::of(ends));
-        Self { lines: ends.par_iter().map(|&ends| Line::new(ends)).collect(), boxes, gain }
+    /// Of leaves in parts, with their boxes.
+    fn of(parts: Vec<(Vec<Leaf>, Vec<Bounds>)>) -> Self {
+        let lengths = || parts.iter().map(|(leaves, _)| leaves.len());
+        let bounds: Vec<Bounds> = parts.iter().flat_map(|(_, bounds)| bounds).copied().collect();
+        // Zeros come without being written, so that each task is the first to touch what it fills.
+        let mut leaves = vec![[[0.0; FAN]; 5]; lengths().sum()];
+        let targets = split(&mut leaves, lengths());
+        each(targets.into_iter().zip(parts).collect(), |_, (target, (part, _))| {
+            target.copy_from_slice(&part);
+        });
+        let items = FAN * leaves.len();
+        Self { leaves, boxes: Boxes::over(bounds, items) }
     }
 
     /// The distance from each place to the nearest segment, infinite if there is none; places as for `nearest`.
     #[must_use]
     pub fn distances(&self, places: &[Point]) -> Vec<f64> {
         // Squares of distances beyond 1e154 are infinite: one segment is as near as another then.
-        let far = |(&p, (segment, distance)): (&Point, (u32, f64))| match self
-            .lines
-            .get(segment as usize)
-        {
-            Some(line) if distance.is_infinite() => {
-                libm::hypot(p[0] - line.start[0], p[1] - line.start[1])
+        let far = |(&p, (segment, distance)): (&Point, (u32, f64))| match self.of_segment(segment) {
+            Some(([[x, ..], [y, ..], ..], _)) if distance.is_infinite() => {
+                libm::hypot(p[0] - x, p[1] - y)
             }
             _ => distance,
         };
@@ -103,102 +125,133 @@ impl Tree {
     /// The distance from `p` to a segment, infinite if there is none.
     #[must_use]
     pub fn distance_to(&self, segment: u32, p: Point) -> f64 {
-        self.lines.get(segment as usize).map_or(f64::INFINITY, |line| line.square(p).sqrt())
+        self.of_segment(segment).map_or(f64::INFINITY, |(leaf, k)| square(leaf, k, p).sqrt())
+    }
+
+    /// The leaf of a segment, and its lane there.
+    fn of_segment(&self, segment: u32) -> Option<(&Leaf, usize)> {
+        let (leaf, k) = (segment as usize / FAN, segment as usize % FAN);
+        self.leaves.get(leaf).map(|leaf| (leaf, k))
     }
 
     /// For each place the nearest segment and the distance, infinite if there is none.
     ///
-    /// Places that follow each other should be near each other: a run of them goes down to boxes of about its size together,
-    /// and each starts with the answer of the one before it.
+    /// Places that follow each other should be near each other: a run of them goes down together, as long as few boxes matter
+    /// to one of them, and starts with the answer of the one before it.
     #[must_use]
     pub fn nearest(&self, places: &[Point]) -> Vec<(u32, f64)> {
-        if self.lines.is_empty() {
-            return vec![(0, f64::INFINITY); places.len()];
-        }
         let mut found = Vec::with_capacity(places.len());
-        let mut search = Search { tree: self, stack: Vec::new(), last: 0 };
-        for run in places.chunks(RUN) {
-            let (level, boxes) = self.boxes_near(run);
-            found.extend(run.iter().map(|&place| search.nearest(place, level, &boxes)));
+        if self.leaves.is_empty() {
+            found.resize(places.len(), (0, f64::INFINITY));
+        } else {
+            let mut search = Search { tree: self, near: vec![0], last: 0, found };
+            for run in places.chunks(RUN) {
+                search.guess(run[run.len() / 2]);
+                search.run(run, self.boxes.height() - 1, 0..1);
+            }
+            found = search.found;
         }
         found
     }
-
-    /// The boxes of a middle level that may hold the segment nearest to one of the places.
-    fn boxes_near(&self, places: &[Point]) -> (usize, Vec<u32>) {
-        let around = Bounds::of(places);
-        let (mut level, mut near) = (self.boxes.height() - 1, vec![0]);
-        while level > MIDDLE {
-            let boxes = self.boxes.level(level - 1);
-            let children = || near.iter().flat_map(|&node| self.boxes.children(level, node));
-            let farthest = children().map(|k| boxes[k as usize].most_square(&around));
-            let most = farthest.fold(f64::INFINITY, f64::min);
-            near =
-                children().filter(|&k| boxes[k as usize].least_square(&around) <= most).collect();
-            level -= 1;
-        }
-        (level, near)
-    }
 }
 
-/// A box on the way down, and its squared distance.
-#[derive(Debug, Clone, Copy)]
-struct Node {
-    square: f64,
-    level: u32,
-    number: u32,
-}
-
-/// A run of searches.
+/// Runs of searches.
 struct Search<'a> {
     tree: &'a Tree,
-    stack: Vec<Node>,
+    /// Boxes that may hold what is nearest: those of each run on the way down after those of the one that it is part of.
+    near: Vec<u32>,
     /// The last answer: the first guess of the next.
-    last: usize,
+    last: u32,
+    found: Vec<(u32, f64)>,
 }
 
 impl Search<'_> {
-    /// The segment nearest to `p`, which is in one of the boxes of a level, and its distance.
-    fn nearest(&mut self, p: Point, level: usize, boxes: &[u32]) -> (u32, f64) {
-        let mut best = self.tree.lines[self.last].square(p);
-        self.stack.clear();
-        self.push(p, best, level, boxes.iter().copied());
-        while let Some(node) = self.stack.pop() {
-            if node.square >= best * (1.0 - self.tree.gain) {
-                continue;
-            }
-            let level = node.level as usize;
-            let children = self.tree.boxes.children(level, node.number);
-            if level > 0 {
-                self.push(p, best, level - 1, children);
-                continue;
-            }
-            let (first, end) = (children.start as usize, children.end as usize);
-            for (k, line) in self.tree.lines[first..end].iter().enumerate() {
-                let square = line.square(p);
-                if square < best {
-                    (best, self.last) = (square, first + k);
-                }
-            }
+    /// Take the nearest in the leaf of the nearest boxes for the last answer, if it is nearer to `p`.
+    fn guess(&mut self, p: Point) {
+        let (mut node, boxes) = (0, &self.tree.boxes);
+        for level in (1..boxes.height()).rev() {
+            let square = |&child: &u32| boxes.level(level - 1)[child as usize].square_to(p);
+            let nearer = |a: &u32, b: &u32| square(a).total_cmp(&square(b));
+            node = boxes.children(level, node).min_by(nearer).unwrap_or(0);
         }
-        (self.last as u32, best.sqrt())
+        self.near.push(node);
+        self.scan(p, self.near.len() - 1..self.near.len());
+        self.near.pop();
     }
 
-    /// Push boxes that are near enough, the nearest last.
-    fn push(&mut self, p: Point, best: f64, level: usize, nodes: impl Iterator<Item = u32>) {
-        let start = self.stack.len();
-        let boxes = self.tree.boxes.level(level);
-        let most = best * (1.0 - self.tree.gain);
-        for number in nodes {
-            let square = boxes[number as usize].square_to(p);
-            if square < most {
-                self.stack.push(Node { square, level: level as u32, number });
+    /// Find what is nearest to each of `places`, which is in one of some boxes of a level.
+    fn run(&mut self, places: &[Point], level: usize, boxes: Range<usize>) {
+        let near = self.that_matter(places, level, boxes);
+        if near.len() > MANY && places.len() > 1 {
+            let (first, second) = places.split_at(places.len() / 2);
+            self.run(first, level, near.clone());
+            self.run(second, level, near.clone());
+        } else if level == 0 {
+            for &place in places {
+                let found = self.scan(place, near.clone());
+                self.found.push(found);
+            }
+        } else {
+            for k in near.clone() {
+                self.near.extend(self.tree.boxes.children(level, self.near[k]));
+            }
+            self.run(places, level - 1, near.end..self.near.len());
+        }
+        self.near.truncate(near.start);
+    }
+
+    /// Those of `boxes` that may hold what is nearest to one of `places`, appended.
+    fn that_matter(&mut self, places: &[Point], level: usize, boxes: Range<usize>) -> Range<usize> {
+        let (around, bounds) = (Bounds::of(places), self.tree.boxes.level(level));
+        let most = self.most_square(&around) * ROUNDING;
+        let start = self.near.len();
+        self.near.resize(start + boxes.len(), 0);
+        let mut end = start;
+        // Without branches, as half of them would be mispredicted.
+        for k in boxes {
+            let number = self.near[k];
+            self.near[end] = number;
+            end += usize::from(bounds[number as usize].least_square(&around) <= most);
+        }
+        self.near.truncate(end);
+        start..end
+    }
+
+    /// No place in a box is farther from the last answer, squared.
+    fn most_square(&self, around: &Bounds) -> f64 {
+        let middle = [0, 1].map(|k| f64::midpoint(around.low[k], around.high[k]));
+        let reach = Bounds::at(middle).most_square(around).sqrt();
+        (self.tree.distance_to(self.last, middle) + reach).powi(2)
+    }
+
+    /// The segment nearest to `p` among the last answer and those of some leaves, and its distance.
+    fn scan(&mut self, p: Point, leaves: Range<usize>) -> (u32, f64) {
+        let Some((leaf, k)) = self.tree.of_segment(self.last) else { return (0, f64::INFINITY) };
+        let mut best = square(leaf, k, p);
+        let boxes = self.tree.boxes.level(0);
+        for k in leaves {
+            let number = self.near[k];
+            if boxes[number as usize].square_to(p) >= best {
+                continue;
+            }
+            let [a, b] = squares(&self.tree.leaves[number as usize], p);
+            let [c, d, e, f] = a.fast_min(b).to_array();
+            let least = smaller(smaller(c, d), smaller(e, f));
+            if least < best {
+                best = least;
+                let squares = [a.to_array(), b.to_array()];
+                let lane = squares.as_flattened().iter().position(|&square| square == least);
+                self.last = FAN as u32 * number + lane.unwrap_or(0) as u32;
             }
         }
-        if self.stack.len() > start + 1 {
-            self.stack[start..].sort_unstable_by(|a, b| b.square.total_cmp(&a.square));
-        }
+        (self.last, best.sqrt())
     }
+}
+
+/// The leaves of segments, and their boxes.
+fn leaves(ends: impl Iterator<Item = [Point; 2]>) -> (Vec<Leaf>, Vec<Bounds>) {
+    let ends: Vec<[Point; 2]> = ends.collect();
+    ends.chunks(FAN).map(|ends| (leaf(ends.iter()), Bounds::of(ends.as_flattened()))).unzip()
 }
 
 /// Where a segment is along the curve, its part, and its number there.
@@ -249,22 +302,18 @@ fn hilbert(x: u16, y: u16) -> u32 {
 }
 
 /// The segments in `order`, joined where the next is in line with one of the last.
-fn joined(parts: &[Vec<Segment>], order: &[Key]) -> Vec<Vec<Segment>> {
-    let part = |order: &[Key]| {
-        let mut kept = Vec::with_capacity(order.len());
-        let mut near = Vec::with_capacity(RUN);
-        // Runs are read at once, so that the processor waits for many places of memory at a time.
-        for run in order.chunks(RUN) {
-            near.clear();
-            near.extend(run.iter().map(|&key| at(parts, key)));
-            for &next in &near {
-                push(&mut kept, next, Segment::joined);
-            }
+fn joined(parts: &[Vec<Segment>], order: &[Key]) -> Vec<Segment> {
+    let mut kept = Vec::with_capacity(order.len());
+    let mut near = Vec::with_capacity(RUN);
+    // Runs are read at once, so that the processor waits for many places of memory at a time.
+    for run in order.chunks(RUN) {
+        near.clear();
+        near.extend(run.iter().map(|&key| at(parts, key)));
+        for &next in &near {
+            push(&mut kept, next, Segment::joined);
         }
-        kept.shrink_to_fit();
-        kept
-    };
-    order.par_chunks(GRAIN).map(part).collect()
+    }
+    kept
 }
 
 #[cfg(test)]
@@ -296,7 +345,8 @@ mod tests {
             let places: Vec<Point> =
                 (0..400).map(|k| [f64::from(k % 20) / 19.0, f64::from(k / 20) / 19.0]).collect();
             for (&place, (segment, distance)) in places.iter().zip(tree.nearest(&places)) {
-                let squares = segments.iter().map(|segment| Line::new(segment.ends).square(place));
+                let squares =
+                    segments.iter().map(|segment| square(&leaf([segment.ends].iter()), 0, place));
                 let nearest = squares.fold(f64::INFINITY, f64::min).sqrt();
                 assert!((distance - nearest).abs() <= 1e-3 * (nearest + 0.05));
                 assert_eq!(distance, tree.distance_to(segment, place));
@@ -309,7 +359,7 @@ mod tests {
         let ends: Vec<_> = chains(60).iter().map(|segment| segment.ends).collect();
         let places: Vec<Point> = (0..99).map(|k| [f64::from(k) / 99.0, 0.3]).collect();
         let nearest = |&p: &Point| {
-            let squares = ends.iter().map(|&ends| Line::new(ends).square(p));
+            let squares = ends.iter().map(|&ends| square(&leaf([ends].iter()), 0, p));
             squares.fold(f64::INFINITY, f64::min).sqrt()
         };
         let expected: Vec<f64> = places.iter().map(nearest).collect();
@@ -320,7 +370,7 @@ mod tests {
     #[test]
     fn chains_are_joined() {
         let tree = Tree::new(vec![chains(700)], UNIT);
-        assert!(tree.lines.len() < 4 * 700);
+        assert!(FAN * tree.leaves.len() < 4 * 700);
     }
 
     #[test]
