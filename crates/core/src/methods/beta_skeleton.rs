@@ -80,10 +80,9 @@ pub fn is_beta_skeleton(
     let bound = AngleBound::of_beta(beta);
     let differs = AtomicBool::new(false);
     let found = in_parts(delaunay.points().len(), GRAIN, progress, |vertices| {
-        let (mut edges, mut found) = (Vec::new(), 0);
+        let mut found = 0;
         for few in short(vertices, progress).take_while(|_| !differs.load(Relaxed)) {
-            let count = delaunay.write_edges_from(few, &mut edges);
-            for edge in edges[..count].iter().map(|&edge| Edge::from(edge)) {
+            for edge in few.flat_map(|p| delaunay.edges_from(p as u32)) {
                 let is_chosen = curve.joins(edge.p, edge.q);
                 if is_chosen != has_angles(delaunay, edge, &bound, &bound) {
                     differs.store(true, Relaxed);

@@ -64,7 +64,7 @@ pub(super) fn gamma_of(
     }
 }
 
-/// Do the apexes of `edge` see it under at most these angles? Both are looked at: no processor foresees what one says.
+/// Do the apexes of `edge` see it under at most these angles?
 pub(crate) fn has_angles(
     delaunay: &Delaunay,
     edge: Edge,
@@ -75,7 +75,7 @@ pub(crate) fn has_angles(
     let admits = |bound: &AngleBound, apex: Option<u32>| {
         apex.is_none_or(|apex| bound.admits(p, q, delaunay.point(apex)))
     };
-    admits(left, edge.left) & admits(right, edge.right)
+    admits(left, edge.left) && admits(right, edge.right)
 }
 
 /// The search among all pairs.
