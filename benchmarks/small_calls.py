@@ -1,14 +1,15 @@
 """What calls with few points cost, and one call with many groups of few."""
 
 import timeit
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from statistics import median
 from time import perf_counter
 
 import numpy as np
 
 SIZES = (10, 100, 1000)
-LOOP_SECONDS = 0.2
+#: Rounds of all sizes in turns, so that a slow second of the machine hits each alike.
+ROUNDS, LOOP_SECONDS = 51, 0.1
 #: Groups, each of `OF` points, beside the same points in one set.
 GROUPS, OF, TURNS = 10_000, 100, 5
 
@@ -20,7 +21,7 @@ def small_calls() -> dict[str, float]:
     except ImportError:
         return {}
     rng = np.random.default_rng(0)
-    found = {str(n): seconds_per_call(crust, rng.random((n, 2))) for n in SIZES}
+    found = seconds_per_call(crust, [rng.random((n, 2)) for n in SIZES])
     return found | {"groups": groups_to_one_set(rng.random((GROUPS * OF, 2)))}
 
 
@@ -39,10 +40,20 @@ def groups_to_one_set(points: np.ndarray) -> float:
     return median(turns)
 
 
-def seconds_per_call(call: Callable[[np.ndarray], object], points: np.ndarray) -> float:
+def seconds_per_call(
+    call: Callable[[np.ndarray], object], sets: Sequence[np.ndarray]
+) -> dict[str, float]:
+    """Return the median seconds of a call by its number of points."""
+    rounds = [[seconds_of_one(call, points) for points in sets] for _ in range(ROUNDS)]
+    medians = map(median, zip(*rounds, strict=True))
+    return {str(len(points)): seconds for points, seconds in zip(sets, medians, strict=True)}
+
+
+def seconds_of_one(call: Callable[[np.ndarray], object], points: np.ndarray) -> float:
     timer = timeit.Timer(lambda: call(points))
+    timer.timeit(1)  # Whatever is to be made once.
     loops = max(1, int(LOOP_SECONDS / timer.timeit(1)))
-    return median(timer.repeat(5, loops)) / loops
+    return timer.timeit(loops) / loops
 
 
 if __name__ == "__main__":
