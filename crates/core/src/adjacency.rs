@@ -115,16 +115,6 @@ impl Adjacency {
         self.incidence.of(vertex)
     }
 
-    /// Is there an edge between `p` and `q`? Quick where two meet, as at most vertices.
-    #[inline]
-    #[must_use]
-    pub fn joins(&self, p: u32, q: u32) -> bool {
-        match *self.of(p) {
-            [(a, _), (b, _)] => q == a || q == b,
-            _ => self.edge(p, q).is_some(),
-        }
-    }
-
     /// The number of the edge between `p` and `q`, if there is one.
     #[inline]
     #[must_use]

@@ -10,6 +10,8 @@ use rayon::prelude::*;
 
 /// Rows that one task writes at a time.
 const GRAIN: usize = 1 << 15;
+/// Rows that are looked at without a branch.
+const RUN: usize = 64;
 
 /// The rows of an (n, 2) array, without a copy.
 ///
@@ -36,8 +38,6 @@ pub fn first_not_finite(
     py: Python<'_>,
     points: PyReadonlyArray2<'_, f64>,
 ) -> PyResult<Option<usize>> {
-    /// Rows that are looked at without a branch.
-    const RUN: usize = 64;
     let is_finite = |point: &Point| point[0].is_finite() & point[1].is_finite();
     let rows = self::points(py, &points)?;
     let run = |run: &[Point]| !run.iter().fold(true, |all, point| all & is_finite(point));
@@ -45,6 +45,12 @@ pub fn first_not_finite(
         let start = RUN * k;
         rows[start..].iter().position(|point| !is_finite(point)).map(|row| start + row)
     }))
+}
+
+/// Does it hold of each row of the one and its counterpart in the other, as far as both have some?
+pub fn all_pairs<A, B>(one: &[A], other: &[B], holds: impl Fn(&A, &B) -> bool) -> bool {
+    let mut runs = one.chunks(RUN).zip(other.chunks(RUN));
+    runs.all(|(one, other)| one.iter().zip(other).fold(true, |all, (a, b)| all & holds(a, b)))
 }
 
 /// Is there memory for so many numbers? NumPy's own failure would be a panic here.

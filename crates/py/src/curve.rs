@@ -1,6 +1,6 @@
 //! Edges of a triangulation as a Python object, with the neighbors along them: made once, read by many.
 
-use crate::arrays::rows;
+use crate::arrays::{all_pairs, rows};
 use crate::call::Call;
 use crate::delaunay::Delaunay;
 use crate::edges::canonical;
@@ -9,9 +9,6 @@ use crustline_core::edges::Edges;
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use std::sync::Arc;
-
-/// Edges that are compared without a branch.
-const RUN: usize = 64;
 
 /// Edges, and the neighbors of each vertex along them.
 #[pyclass(frozen, module = "crustline._core")]
@@ -44,9 +41,6 @@ impl Curve {
         let same = |own: &[u32; 2], edge: &[i64; 2]| {
             i64::from(own[0]) == edge[0] && i64::from(own[1]) == edge[1]
         };
-        let mut runs = self.edges.chunks(RUN).zip(edges.chunks(RUN));
-        Ok(edges.len() == self.edges.len()
-            && runs
-                .all(|(own, run)| own.iter().zip(run).fold(true, |all, (a, b)| all & same(a, b))))
+        Ok(edges.len() == self.edges.len() && all_pairs(&self.edges, edges, same))
     }
 }

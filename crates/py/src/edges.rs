@@ -1,6 +1,6 @@
 //! Edges from Python: pairs of rows in any order, or in the canonical one.
 
-use crate::arrays::rows;
+use crate::arrays::{all_pairs, rows};
 use crate::errors::{exception, input_error};
 use crate::threads::aside;
 use crustline_core::Result;
@@ -24,16 +24,11 @@ pub fn is_canonical(
 }
 
 fn are_canonical(edges: &[[i64; 2]], points: i64) -> bool {
-    /// Edges that are looked at without a branch.
-    const RUN: usize = 64;
     let fits = |&[i, j]: &[i64; 2]| 0 <= i && i < j && j < points;
     let ascends = |[i, j]: &[i64; 2], [k, l]: &[i64; 2]| i < k || i == k && j < l;
-    let mut runs = edges.chunks(RUN).zip(edges.get(1..).unwrap_or_default().chunks(RUN));
+    let later = edges.get(1..).unwrap_or_default();
     edges.first().is_none_or(fits)
-        && runs.all(|(run, next)| {
-            let steps = run.iter().zip(next);
-            steps.fold(true, |all, (edge, next)| all & fits(next) & ascends(edge, next))
-        })
+        && all_pairs(edges, later, |edge, next| fits(next) & ascends(edge, next))
 }
 
 /// Canonical edges as those of the core, made by the thread that will take them: each has memory of its own.

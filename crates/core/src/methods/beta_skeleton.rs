@@ -83,7 +83,7 @@ pub fn is_beta_skeleton(
         let mut found = 0;
         for few in short(vertices, progress).take_while(|_| !differs.load(Relaxed)) {
             for edge in few.flat_map(|p| delaunay.edges_from(p as u32)) {
-                let is_chosen = curve.joins(edge.p, edge.q);
+                let is_chosen = curve.edge(edge.p, edge.q).is_some();
                 if is_chosen != has_angles(delaunay, edge, &bound, &bound) {
                     differs.store(true, Relaxed);
                     break;
